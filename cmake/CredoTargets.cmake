@@ -1,0 +1,50 @@
+# How every target of the house is built. One static library a folder, named credo_<folder>.
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+find_program(CREDO_CCACHE ccache)
+if(CREDO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CREDO_CCACHE})
+endif()
+
+function(credo_target_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor
+    $<$<BOOL:${CREDO_WERROR}>:-Werror>)
+  # A fused multiply-add rounds once instead of twice: left to the compiler, results would differ
+  # between machines and instruction sets.
+  target_compile_options(${target} PUBLIC -ffp-contract=off)
+  if(CREDO_SANITIZE)
+    # oneTBB's headers trip the vptr check.
+    target_compile_options(${target} PUBLIC
+      -fsanitize=${CREDO_SANITIZE} -fno-sanitize=vptr -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${CREDO_SANITIZE})
+  endif()
+endfunction()
+
+# credo_library(NAME SOURCES a.cpp b.cpp [PUBLIC lib...] [PRIVATE lib...])
+function(credo_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  credo_target_options(${name})
+  target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+endfunction()
+
+# credo_test(NAME SOURCES a_test.cpp [LINK lib...]): a GoogleTest executable, each test known to ctest.
+function(credo_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  credo_target_options(${name})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock_main)
+  # Where the recordings lie, if they are there: beside the checkout.
+  target_compile_definitions(${name} PRIVATE
+    CREDO_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    CREDO_DATA_DIR="${PROJECT_SOURCE_DIR}/../shared/data")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/frame.hpp"
+#include "core/label.hpp"
+#include "core/plane.hpp"
+#include "core/segmentation.hpp"
+
+namespace credo {
+
+/// Why a probability moved, or did not, in the last frame.
+enum class Evidence : std::uint8_t { kSeen, kSeenThrough, kOccluded, kOutOfView, kNotSeen };
+
+/// The word that files and topics use: "seen", "seen_through", "occluded", "out_of_view",
+/// "not_seen".
+[[nodiscard]] char const* to_string(Evidence evidence);
+
+[[nodiscard]] inline double probability_of(double log_odds) {
+  return 1.0 / (1.0 + std::exp(-log_odds));
+}
+[[nodiscard]] inline double log_odds_of(double probability) {
+  return std::log(probability / (1.0 - probability));
+}
+
+/// Everything accumulated about the floor (thesis 4.2). World frame.
+struct FloorBelief {
+  /// Unit, up.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  /// z of the plane below the points' centroid.
+  double height_m = 0.0;
+  /// Union of all observations, one point per cell of a grid; shared between successive beliefs.
+  std::shared_ptr<PointList const> points = std::make_shared<PointList>();
+};
+
+/// A wall as a line segment on the floor, swept along z (thesis 4.2). World frame.
+struct WallBelief {
+  std::uint32_t id = 0;
+  Plane plane_world;
+  Eigen::Vector2d segment_start_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d segment_end_m = Eigen::Vector2d::Zero();
+  /// Union of all observations, thinned; shared between successive beliefs.
+  std::shared_ptr<PointList const> points = std::make_shared<PointList>();
+  /// Pixels of all observations so far: the weight of the normal and offset in the next merge.
+  double weight_pixels = 0.0;
+  /// Its code in the last frame's label image; none where that frame did not show it.
+  std::optional<LabelCode> label;
+};
+
+/// A known object: pose distribution and the probability that it is there (thesis 4.1).
+struct ObjectBelief {
+  std::string id;
+  std::string type;
+  double log_odds = 0.0;
+  PoseDistribution pose_world;
+  Evidence evidence = Evidence::kNotSeen;
+  std::optional<LabelCode> label;
+};
+
+/// Something seen but not known: its clusters over time and the probability that it is there (4.3).
+struct StuffBelief {
+  std::uint32_t id = 0;
+  double log_odds = 0.0;
+  /// Number of clusters ever appended; only the last few are kept.
+  std::size_t history_count = 0;
+  /// Oldest first; never empty. Shared between successive beliefs.
+  std::vector<std::shared_ptr<StuffCluster const>> recent_clusters;
+  Evidence evidence = Evidence::kSeen;
+  std::optional<LabelCode> label;
+
+  [[nodiscard]] StuffCluster const& latest() const { return *recent_clusters.back(); }
+};
+
+/// What the robot believes is around it after a frame. Immutable once built; point sets are shared
+/// with the belief before, so that a copy costs little.
+struct BeliefState {
+  /// The last frame fused; kPriorFrame before the first.
+  FrameIndex frame = kPriorFrame;
+  std::int64_t stamp_ns = 0;
+  FrameIndex segmented_with = kPriorFrame;
+  Se3 T_world_camera;
+  std::optional<FloorBelief> floor;
+  std::vector<WallBelief> walls;
+  std::vector<ObjectBelief> objects;
+  std::vector<StuffBelief> stuff;
+  // Ids are never used twice in a run.
+  std::uint32_t next_wall_id = 1;
+  std::uint32_t next_stuff_id = 1;
+};
+using BeliefPtr = std::shared_ptr<BeliefState const>;
+
+}  // namespace credo

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/frame.hpp"
+#include "core/label.hpp"
+#include "core/plane.hpp"
+
+namespace credo {
+
+/// Points in the world frame, metres.
+using PointList = std::vector<Eigen::Vector3f>;
+
+/// The floor as one frame shows it.
+struct FloorObservation {
+  /// World frame, normal up.
+  Plane plane_world;
+  /// Thinned to the spacing of the planes' config.
+  PointList points_world;
+  /// Pixels that carry the label kFloor because they are the plane's inliers.
+  std::size_t pixel_count = 0;
+};
+
+/// One wall as one frame shows it.
+struct WallObservation {
+  LabelCode label = kFirstWall;
+  /// World frame; the normal faces the camera.
+  Plane plane_world;
+  PointList points_world;
+  std::size_t pixel_count = 0;
+};
+
+/// A known object that the detector found and the gate let pass.
+struct ObjectObservation {
+  LabelCode label = kFirstObject;
+  /// Position of the object in BeliefState::objects of the belief that was used.
+  std::size_t object = 0;
+  std::string object_id;
+  PoseDistribution pose_world;
+  std::size_t pixel_count = 0;
+};
+
+/// A cluster of points that is neither floor, wall nor known object (thesis 3.3).
+struct StuffCluster {
+  LabelCode label = kFirstStuff;
+  std::size_t pixel_count = 0;
+  /// Of all its pixels, not only of the thinned points.
+  Eigen::Vector3f centroid_world = Eigen::Vector3f::Zero();
+  Eigen::AlignedBox3f bounds_world;
+  /// Thinned to the spacing of the clustering's config, never empty.
+  PointList points_world;
+};
+
+/// What one frame shows: a label for every pixel, and what each label stands for. The stages pass
+/// it on by moving: each adds its labels and its entries.
+struct Segmentation {
+  FrameIndex frame{0};
+  std::int64_t stamp_ns = 0;
+  /// Frame of the belief that the detector was asked with; kPriorFrame for the prior.
+  FrameIndex segmented_with = kPriorFrame;
+  Se3 T_world_camera;
+  /// False where no floor was found to level by: z = 0 then means nothing, and nothing is floor.
+  bool floor_at_zero = true;
+  LabelMap labels;
+  std::optional<FloorObservation> floor;
+  std::vector<WallObservation> walls;
+  std::vector<ObjectObservation> objects;
+  std::vector<StuffCluster> stuff;
+};
+using SegmentationPtr = std::shared_ptr<Segmentation const>;
+
+/// The segmentation before any stage: kNoDepth where the cloud is invalid, else kUnassigned.
+Segmentation unassigned_segmentation(Frame const& frame, Se3 const& T_world_camera,
+                                     FrameIndex segmented_with);
+
+}  // namespace credo
