@@ -12,8 +12,9 @@ FieldList fields(CaptureConfig& config) {
   return {
       section("camera", std::move(camera),
               "intrinsics where the recording brings no camera-intrinsics.txt"),
-      choice("axes", config.axes, {"optical", "y_up_z_back"},
-             "axes of recorded clouds: optical is x right, y down, z forward"),
+      choice("axes", config.axes, {"auto", "optical", "y_up_z_back"},
+             "axes of recorded clouds: optical is x right, y down, z forward; auto tells by the "
+             "sign of z"),
       {"depth_unit_m",
        &config.depth_unit_m,
        {0, 1},

@@ -10,6 +10,8 @@ namespace credo {
 
 /// How a source's clouds are oriented.
 enum class CloudAxes : std::uint8_t {
+  /// y_up_z_back where most points of a cloud lie behind the camera (z < 0), else optical.
+  kAuto,
   /// The camera's optical frame: x right, y down, z forward.
   kOptical,
   /// x right, y up, z backward (OpenGL), as some PCD files come.
@@ -23,7 +25,7 @@ struct CaptureConfig {
   double camera_fy_px = 0.0;
   double camera_cx_px = 0.0;
   double camera_cy_px = 0.0;
-  CloudAxes axes = CloudAxes::kOptical;
+  CloudAxes axes = CloudAxes::kAuto;
   /// Metres per count of a 16-bit depth image; 0 = the layout's own (0.001, TUM 0.0002).
   double depth_unit_m = 0.0;
   /// Depth beyond this is taken as invalid.

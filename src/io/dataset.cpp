@@ -1,0 +1,213 @@
+#include "io/dataset.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/dataset_listing.hpp"
+#include "io/image.hpp"
+#include "io/intrinsics.hpp"
+#include "io/pcd.hpp"
+#include "io/trajectory.hpp"
+
+namespace credo {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A fault of one frame, on its way to becoming a FrameFailure.
+struct FrameFault {
+  std::string reason;
+  std::string message;
+};
+
+/// Depth and colour of one frame, before it is known where the camera was.
+struct Pictures {
+  OrganizedCloud cloud_camera;
+  Grid<Rgb> color;
+};
+
+FrameFault fault_of(ImageError const& error, char const* missing) {
+  switch (error.fault()) {
+    case ImageFault::kMissing:
+      return {missing, error.what()};
+    case ImageFault::kTruncated:
+      return {"truncated_image", error.what()};
+    case ImageFault::kUnreadable:
+      break;
+  }
+  return {"unreadable_image", error.what()};
+}
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+class DatasetSource : public FrameSource {
+public:
+  DatasetSource(fs::path folder, CaptureConfig const& capture, PoseConfig const& pose,
+                std::vector<std::string>& warnings)
+      : folder_(std::move(folder)),
+        capture_(capture),
+        pose_source_(pose.source),
+        listing_(list_dataset(folder_)) {
+    if (capture.depth_unit_m > 0) {
+      listing_.depth_unit_m = capture.depth_unit_m;
+    }
+    if (pose.source == PoseSource::kFile) {
+      trajectory_.emplace(pose.file);
+    }
+    SourceResult first = load(0, &warnings);
+    if (auto const* failure = std::get_if<FrameFailure>(&first)) {
+      throw InputError(failure->message);
+    }
+    first_ = std::get<FramePtr>(first);
+  }
+
+  [[nodiscard]] std::size_t frame_count() const { return listing_.entries.size(); }
+
+  SourceResult next() override {
+    if (position_ == listing_.entries.size()) {
+      return EndOfSource{};
+    }
+    std::size_t const index = position_++;
+    return index == 0 ? SourceResult(std::move(first_)) : load(index, nullptr);
+  }
+
+private:
+  /// `warnings` is given for the first frame, which settles intrinsics and size.
+  SourceResult load(std::size_t index, std::vector<std::string>* warnings) {
+    DatasetEntry const& entry = listing_.entries[index];
+    FrameIndex const frame_index{static_cast<std::int64_t>(index)};
+    try {
+      Pictures pictures =
+          entry.cloud.empty() ? read_images(entry, index, warnings) : read_cloud(entry, warnings);
+      auto frame = std::make_shared<Frame>();
+      frame->index = frame_index;
+      frame->stamp_ns = entry.stamp_ns;
+      frame->intrinsics = intrinsics_;
+      frame->T_source_camera = pose_of(entry, frame_index);
+      frame->cloud_camera = std::move(pictures.cloud_camera);
+      frame->color = std::move(pictures.color);
+      return FramePtr(std::move(frame));
+    } catch (FrameFault const& fault) {
+      return FrameFailure{frame_index, fault.reason, fault.message};
+    }
+  }
+
+  void settle(int width, int height, fs::path const& file, std::vector<std::string>* warnings) {
+    if (warnings != nullptr) {
+      intrinsics_ = find_intrinsics(folder_, capture_, width, height, *warnings);
+      width_ = width;
+      height_ = height;
+    } else if (width != width_ || height != height_) {
+      throw FrameFault{"wrong_size", file.string() + ": is " + size_text(width, height) +
+                                         ", the first frame is " + size_text(width_, height_)};
+    }
+  }
+
+  Pictures read_images(DatasetEntry const& entry, std::size_t index,
+                       std::vector<std::string>* warnings) {
+    if (entry.depth.empty()) {
+      throw FrameFault{"missing_depth", entry.color.string() + ": colour without depth"};
+    }
+    if (entry.color.empty()) {
+      throw FrameFault{"missing_color", entry.depth.string() + ": depth without colour (frame " +
+                                            std::to_string(index) + ")"};
+    }
+    Grid<float> depth_m = read_depth(entry.depth);
+    settle(depth_m.width(), depth_m.height(), entry.depth, warnings);
+    Pictures pictures;
+    pictures.color = read_frame_color(entry.color);
+    if (!pictures.color.same_size(depth_m)) {
+      throw FrameFault{"wrong_size",
+                       entry.color.string() + ": is " +
+                           size_text(pictures.color.width(), pictures.color.height()) +
+                           ", its depth " + size_text(depth_m.width(), depth_m.height())};
+    }
+    pictures.cloud_camera = cloud_from_depth(std::move(depth_m), intrinsics_);
+    return pictures;
+  }
+
+  [[nodiscard]] Grid<float> read_depth(fs::path const& path) const {
+    try {
+      Grid<std::uint16_t> const counts = read_png16(path);
+      auto const unit_m = static_cast<float>(listing_.depth_unit_m);
+      auto const farthest_m = static_cast<float>(capture_.max_depth_m);
+      Grid<float> depth_m(counts.width(), counts.height());
+      for (std::size_t i = 0; i < counts.size(); ++i) {
+        float const z = static_cast<float>(counts[i]) * unit_m;
+        depth_m[i] = counts[i] != 65535 && z <= farthest_m ? z : 0.0F;
+      }
+      return depth_m;
+    } catch (ImageError const& error) {
+      throw fault_of(error, "missing_depth");
+    }
+  }
+
+  static Grid<Rgb> read_frame_color(fs::path const& path) {
+    try {
+      return read_color(path);
+    } catch (ImageError const& error) {
+      throw fault_of(error, "missing_color");
+    }
+  }
+
+  Pictures read_cloud(DatasetEntry const& entry, std::vector<std::string>* warnings) {
+    try {
+      ColoredCloud read = read_pcd(entry.cloud, capture_.axes, capture_.max_depth_m);
+      settle(read.cloud_camera.width(), read.cloud_camera.height(), entry.cloud, warnings);
+      return {std::move(read.cloud_camera), std::move(read.color)};
+    } catch (InputError const& error) {
+      throw FrameFault{"bad_cloud", error.what()};
+    }
+  }
+
+  [[nodiscard]] Se3 pose_of(DatasetEntry const& entry, FrameIndex index) const {
+    if (pose_source_ == PoseSource::kFixed) {
+      return {};
+    }
+    std::optional<Se3> pose = entry.pose;
+    if (pose_source_ == PoseSource::kFile) {
+      pose = trajectory_->at(index, entry.stamp_ns);
+    } else if (!listing_.has_poses) {
+      return {};
+    } else if (!entry.pose_file.empty()) {
+      try {
+        return read_pose(entry.pose_file);
+      } catch (InputError const& error) {
+        throw FrameFault{"bad_pose", error.what()};
+      }
+    }
+    if (!pose) {
+      throw FrameFault{"missing_pose", folder_.string() + ": no pose for frame " +
+                                           std::to_string(number(index)) +
+                                           "; pose.source=fixed runs without poses"};
+    }
+    return *pose;
+  }
+
+  fs::path folder_;
+  CaptureConfig capture_;
+  PoseSource pose_source_;
+  DatasetListing listing_;
+  std::optional<Trajectory> trajectory_;
+  CameraIntrinsics intrinsics_;
+  int width_ = 0;
+  int height_ = 0;
+  std::size_t position_ = 0;
+  FramePtr first_;
+};
+
+}  // namespace
+
+OpenedSource open_dataset(fs::path const& folder, CaptureConfig const& capture,
+                          PoseConfig const& pose) {
+  OpenedSource opened;
+  auto source = std::make_unique<DatasetSource>(folder, capture, pose, opened.warnings);
+  opened.frame_count = source->frame_count();
+  opened.source = std::move(source);
+  return opened;
+}
+
+}  // namespace credo

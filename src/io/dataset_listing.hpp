@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "core/se3.hpp"
+
+namespace credo {
+
+/// The files of one frame; an empty path is a file that should be there and is not.
+struct DatasetEntry {
+  std::int64_t stamp_ns = 0;
+  std::filesystem::path depth;
+  std::filesystem::path color;
+  /// Set instead of depth and colour.
+  std::filesystem::path cloud;
+  std::filesystem::path pose_file;
+  /// Where poses come from a trajectory.
+  std::optional<Se3> pose;
+};
+
+/// What a folder holds, in the order of its frames.
+struct DatasetListing {
+  std::vector<DatasetEntry> entries;
+  double depth_unit_m = 0.001;
+  /// Some frame has a pose: then every frame must.
+  bool has_poses = false;
+};
+
+/// Tells the layout of a folder and lists its frames. Throws InputError: no folder, nothing known
+/// in it, damaged lists. A number that has neither depth nor colour is a gap, not a frame.
+DatasetListing list_dataset(std::filesystem::path const& folder);
+
+}  // namespace credo

@@ -1,0 +1,176 @@
+#include "io/image.hpp"
+
+#include <spng.h>
+#include <turbojpeg.h>
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <vector>
+
+namespace credo {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+struct ContextDeleter {
+  void operator()(spng_ctx* context) const { spng_ctx_free(context); }
+};
+using Context = std::unique_ptr<spng_ctx, ContextDeleter>;
+
+struct JpegDeleter {
+  void operator()(void* handle) const { tjDestroy(handle); }
+};
+
+[[noreturn]] void fail(ImageFault fault, std::filesystem::path const& path,
+                       std::string const& what) {
+  throw ImageError(fault, path.string() + ": " + what);
+}
+
+Bytes read_bytes(std::filesystem::path const& path) {
+  std::error_code error;
+  auto const size = std::filesystem::file_size(path, error);
+  if (error) {
+    fail(ImageFault::kMissing, path, "no such file");
+  }
+  if (size == 0) {
+    fail(ImageFault::kTruncated, path, "empty file");
+  }
+  Bytes bytes(size);
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
+    fail(ImageFault::kUnreadable, path, "cannot be read");
+  }
+  return bytes;
+}
+
+bool is_png(Bytes const& bytes) {
+  return bytes.size() >= 4 && bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N' &&
+         bytes[3] == 'G';
+}
+
+/// libspng tells a cut file by one of these.
+bool means_truncated(int error) {
+  return error == SPNG_EOF || error == SPNG_IO_EOF;
+}
+
+void check_png(int error, std::filesystem::path const& path) {
+  if (error != 0) {
+    fail(means_truncated(error) ? ImageFault::kTruncated : ImageFault::kUnreadable, path,
+         means_truncated(error) ? std::string("cut short")
+                                : std::string("damaged PNG: ") + spng_strerror(error));
+  }
+}
+
+/// Opens a PNG and reads its header. `bytes` must outlive the context.
+Context open_png(Bytes const& bytes, std::filesystem::path const& path, spng_ihdr& header) {
+  if (!is_png(bytes)) {
+    fail(ImageFault::kUnreadable, path, "not a PNG");
+  }
+  Context context(spng_ctx_new(0));
+  // A header may claim any size; nothing here is larger than this.
+  check_png(spng_set_image_limits(context.get(), 16384, 16384), path);
+  check_png(spng_set_png_buffer(context.get(), bytes.data(), bytes.size()), path);
+  check_png(spng_get_ihdr(context.get(), &header), path);
+  return context;
+}
+
+Grid<Rgb> read_png_rgb(Bytes const& bytes, std::filesystem::path const& path) {
+  spng_ihdr header{};
+  Context const context = open_png(bytes, path, header);
+  Grid<Rgb> image(static_cast<int>(header.width), static_cast<int>(header.height));
+  check_png(
+      spng_decode_image(context.get(), image.data(), image.size() * sizeof(Rgb), SPNG_FMT_RGB8, 0),
+      path);
+  return image;
+}
+
+Grid<Rgb> read_jpeg(Bytes const& bytes, std::filesystem::path const& path) {
+  std::unique_ptr<void, JpegDeleter> const handle(tjInitDecompress());
+  int width = 0;
+  int height = 0;
+  int subsampling = 0;
+  int colorspace = 0;
+  if (tjDecompressHeader3(handle.get(), bytes.data(), bytes.size(), &width, &height, &subsampling,
+                          &colorspace) != 0) {
+    fail(ImageFault::kUnreadable, path, "neither PNG nor JPEG");
+  }
+  Grid<Rgb> image(width, height);
+  // A cut JPEG is only a warning to the decoder, which fills the rest with grey: here it is an
+  // error.
+  if (tjDecompress2(handle.get(), bytes.data(), bytes.size(),
+                    reinterpret_cast<unsigned char*>(image.data()), width, 0, height, TJPF_RGB,
+                    TJFLAG_FASTDCT) != 0) {
+    std::string const text = tjGetErrorStr2(handle.get());
+    bool const cut = text.find("remature end") != std::string::npos;
+    fail(cut ? ImageFault::kTruncated : ImageFault::kUnreadable, path,
+         cut ? "cut short" : "damaged JPEG: " + text);
+  }
+  return image;
+}
+
+void write_png(std::filesystem::path const& path, void const* data, std::size_t length,
+               spng_ihdr header) {
+  Context const context(spng_ctx_new(SPNG_CTX_ENCODER));
+  spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
+  spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 1);
+  spng_set_ihdr(context.get(), &header);
+  int error = spng_encode_image(context.get(), data, length, SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE);
+  std::size_t size = 0;
+  std::unique_ptr<void, void (*)(void*)> const png(
+      error == 0 ? spng_get_png_buffer(context.get(), &size, &error) : nullptr, std::free);
+  if (error != 0 || png == nullptr) {
+    throw InputError(path.string() + ": cannot be encoded: " + spng_strerror(error));
+  }
+  std::ofstream file(path, std::ios::binary);
+  file.write(static_cast<char const*>(png.get()), static_cast<std::streamsize>(size));
+  file.close();
+  if (!file) {
+    throw InputError(path.string() + ": cannot be written: is the disk full, or the folder gone?");
+  }
+}
+
+spng_ihdr header_of(int width, int height, std::uint8_t bits, std::uint8_t color_type) {
+  spng_ihdr header{};
+  header.width = static_cast<std::uint32_t>(width);
+  header.height = static_cast<std::uint32_t>(height);
+  header.bit_depth = bits;
+  header.color_type = color_type;
+  return header;
+}
+
+}  // namespace
+
+Grid<std::uint16_t> read_png16(std::filesystem::path const& path) {
+  Bytes const bytes = read_bytes(path);
+  spng_ihdr header{};
+  Context const context = open_png(bytes, path, header);
+  if (header.bit_depth != 16 || header.color_type != SPNG_COLOR_TYPE_GRAYSCALE) {
+    fail(ImageFault::kUnreadable, path,
+         "not a 16-bit grey PNG (" + std::to_string(header.bit_depth) + " bits, colour type " +
+             std::to_string(header.color_type) + ")");
+  }
+  Grid<std::uint16_t> image(static_cast<int>(header.width), static_cast<int>(header.height));
+  // SPNG_FMT_PNG is the stored format in host byte order.
+  check_png(spng_decode_image(context.get(), image.data(), image.size() * 2, SPNG_FMT_PNG, 0),
+            path);
+  return image;
+}
+
+Grid<Rgb> read_color(std::filesystem::path const& path) {
+  Bytes const bytes = read_bytes(path);
+  return is_png(bytes) ? read_png_rgb(bytes, path) : read_jpeg(bytes, path);
+}
+
+void write_png16(std::filesystem::path const& path, Grid<std::uint16_t> const& image) {
+  write_png(path, image.data(), image.size() * 2,
+            header_of(image.width(), image.height(), 16, SPNG_COLOR_TYPE_GRAYSCALE));
+}
+
+void write_png_rgb(std::filesystem::path const& path, Grid<Rgb> const& image) {
+  write_png(path, image.data(), image.size() * sizeof(Rgb),
+            header_of(image.width(), image.height(), 8, SPNG_COLOR_TYPE_TRUECOLOR));
+}
+
+}  // namespace credo

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/capture_config.hpp"
+#include "core/cloud.hpp"
+#include "core/error.hpp"
+#include "core/frame.hpp"
+
+namespace credo {
+
+/// An organised cloud as a file holds it.
+struct ColoredCloud {
+  OrganizedCloud cloud_camera;
+  /// Empty where the file has neither rgb nor rgba.
+  Grid<Rgb> color;
+};
+
+/// Reads an organised PCD file (fields x y z, optionally rgb or rgba; ascii, binary or compressed)
+/// and turns it into the camera's optical frame. Points that are NaN, 0 0 0, behind the camera or
+/// beyond `max_depth_m` become invalid. Throws InputError: unreadable, cut short, unorganised,
+/// without x y z.
+ColoredCloud read_pcd(std::filesystem::path const& path, CloudAxes axes, double max_depth_m);
+
+}  // namespace credo

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "core/frame.hpp"
+#include "core/se3.hpp"
+
+namespace credo {
+
+/// One camera pose (camera to source) from a file of 16 numbers, 4x4 row by row. Throws InputError
+/// for any other count and for what is no rigid motion.
+Se3 read_pose(std::filesystem::path const& path);
+
+/// Camera poses over time (TUM) or frame by frame (KITTI).
+class Trajectory {
+public:
+  /// Lines `stamp_s tx ty tz qx qy qz qw` with rising stamps, or 12 or 16 numbers (3x4 or 4x4, row
+  /// by row) for each frame; empty lines and lines from # on are passed over. Throws InputError
+  /// with the line.
+  explicit Trajectory(std::filesystem::path const& path);
+
+  /// The pose of a frame: by index; or by stamp, interpolated between the two poses around it where
+  /// neither is more than 0.1 s away, or the nearest within 0.02 s. None where there is none.
+  [[nodiscard]] std::optional<Se3> at(FrameIndex index, std::int64_t stamp_ns) const;
+
+private:
+  void add_line(std::vector<double> const& numbers);
+  [[nodiscard]] std::optional<Se3> at_stamp(std::int64_t stamp_ns) const;
+
+  bool by_stamp_ = false;
+  std::vector<std::int64_t> stamps_ns_;
+  std::vector<Se3> poses_;
+};
+
+}  // namespace credo

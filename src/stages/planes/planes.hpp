@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/cloud.hpp"
+#include "core/fields.hpp"
+#include "core/frame.hpp"
+#include "core/segmentation.hpp"
+#include "geometry/plane_search.hpp"
+
+namespace credo {
+
+/// Floor and walls (thesis 3.2 and algorithm 2). The defaults are the thesis' numbers, marked T,
+/// with the sensor's noise and the points' normals left out of account, as the thesis does.
+struct PlanesConfig {
+  /// A point belongs to a plane within this distance (T: 0.05) ...
+  double inlier_distance_m = 0.05;
+  /// ... or within this many standard deviations of a Kinect's axial noise, if that is more
+  /// (0.0012 + 0.0019 (z - 0.4)^2 m: Nguyen et al. 2012); 0 leaves noise out.
+  double noise_sigmas = 0.0;
+  /// A point with a normal belongs to a plane only within this angle; pi/2 or more switches it off.
+  double max_angle_rad = 3.15;
+  /// Planes with fewer inliers end the search (T: 150).
+  int min_plane_pixels = 150;
+  int max_planes = 200;
+  PlaneSampling sampling = PlaneSampling::kThreePoints;
+  double confidence = 0.99;
+  int max_hypotheses = 100;
+  int scoring_points = 4096;
+  int seed = 1;
+  /// Floor: horizontal components of the normal at most this (T: 0.5), the vertical one at least
+  /// one minus the other (T: 0.1), mean |z| of the inliers at most the third (T: 0.1).
+  double floor_max_normal_xy = 0.5;
+  double floor_max_normal_z_gap = 0.1;
+  double floor_max_mean_height_m = 0.1;
+  /// Wall: |n_z| below this (T: 0.1) ...
+  double wall_max_normal_z = 0.1;
+  /// ... |n_x| or |n_y| above this (T: 0.5) ...
+  double wall_min_normal_xy = 0.5;
+  /// ... and at most so many points beyond it (T: 50), or so large a share of the plane's own
+  /// pixels.
+  int wall_max_points_beyond = 50;
+  double wall_max_share_beyond = 0.0;
+  /// Walls with fewer pixels, or lower from their foot to their top, stay in the cloud.
+  int wall_min_pixels = 0;
+  double wall_min_extent_m = 0.0;
+  /// Spacing of the points that are handed to the belief.
+  double point_spacing_m = 0.05;
+};
+FieldList fields(PlanesConfig& config);
+
+/// Labels floor and walls among the unassigned pixels and adds their observations; planes that are
+/// neither keep their pixels unassigned. Walls are numbered from 2000 in the order they are found,
+/// largest first. No pixels, no plane or no level (`floor_at_zero` false: no floor) is no error.
+Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
+                            PlanesConfig const& config);
+
+}  // namespace credo

@@ -1,0 +1,138 @@
+// Who may know whom: core <- geometry <- stages <- graph <- tools; config, io know core; sim knows
+// core, geometry, io. This test reads the includes and holds the rule.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Include {
+  fs::path file;  // relative to src/
+  std::string target;
+};
+
+std::vector<Include> includes_of(fs::path const& root) {
+  static std::regex const pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<Include> found;
+  for (auto const& entry : fs::recursive_directory_iterator(root)) {
+    auto const extension = entry.path().extension();
+    if (extension != ".hpp" && extension != ".cpp") {
+      continue;
+    }
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      std::smatch match;
+      if (std::regex_search(line, match, pattern)) {
+        found.push_back({fs::relative(entry.path(), root), match[1]});
+      }
+    }
+  }
+  return found;
+}
+
+/// "stages/normals" for a stage, else the first folder.
+std::string room_of(fs::path const& path) {
+  auto part = path.begin();
+  std::string room = part->string();
+  return room == "stages" ? room + "/" + std::next(part)->string() : room;
+}
+
+std::vector<std::string> const& allowed_rooms(std::string const& room) {
+  static std::map<std::string, std::vector<std::string>> const allowed = {
+      {"core", {"core"}},
+      {"geometry", {"core", "geometry"}},
+      {"config", {"core", "config"}},
+      {"io", {"core", "io"}},
+      {"sim", {"core", "geometry", "io", "sim"}},
+      {"stages", {"core", "geometry", "stages"}},
+      {"graph", {"core", "geometry", "stages", "graph", "io"}},
+  };
+  auto const found = allowed.find(room);
+  static std::vector<std::string> const none;
+  return found == allowed.end() ? none : found->second;
+}
+
+std::set<std::string> const& rooms() {
+  static std::set<std::string> const all = {"core", "geometry", "config", "io",
+                                            "sim",  "stages",   "graph",  "dds"};
+  return all;
+}
+
+TEST(Dependencies, EachRoomKnowsOnlyTheRoomsBelowIt) {
+  auto const includes = includes_of(fs::path(CREDO_SOURCE_DIR) / "src");
+  ASSERT_GT(includes.size(), 100U);
+  for (Include const& include : includes) {
+    std::string const from = include.file.begin()->string();
+    std::string const to = fs::path(include.target).begin()->string();
+    if (rooms().count(to) == 0) {
+      continue;
+    }
+    EXPECT_THAT(allowed_rooms(from), testing::Contains(to))
+        << include.file << " includes " << include.target;
+  }
+}
+
+TEST(Dependencies, AStageNeverIncludesAnotherStage) {
+  for (Include const& include : includes_of(fs::path(CREDO_SOURCE_DIR) / "src")) {
+    if (room_of(include.file).starts_with("stages/") && include.target.starts_with("stages/")) {
+      EXPECT_EQ(room_of(include.file), room_of(include.target)) << include.file;
+    }
+  }
+}
+
+TEST(Dependencies, LibrariesStayInTheirRooms) {
+  struct Rule {
+    std::string prefix;
+    std::vector<std::string> rooms;
+    bool headers;  // whether a header may include it
+  };
+  std::vector<Rule> const rules = {
+      {"tbb/flow_graph.h", {"graph"}, true},
+      {"oneapi/tbb/flow_graph.h", {"graph"}, true},
+      {"yaml-cpp/", {"config"}, false},
+      {"pcl/", {"io", "geometry", "stages"}, false},
+      {"embree", {"sim"}, false},
+      {"spdlog/", {"graph"}, true},
+      {"spng.h", {"io"}, false},
+      {"turbojpeg.h", {"io"}, false},
+      {"nlohmann/", {"io"}, true},
+  };
+  for (Include const& include : includes_of(fs::path(CREDO_SOURCE_DIR) / "src")) {
+    for (Rule const& rule : rules) {
+      if (!include.target.starts_with(rule.prefix)) {
+        continue;
+      }
+      EXPECT_THAT(rule.rooms, testing::Contains(include.file.begin()->string())) << include.file;
+      EXPECT_TRUE(rule.headers || include.file.extension() == ".cpp")
+          << include.file << " shows " << include.target << " to whoever includes it";
+    }
+  }
+}
+
+TEST(Dependencies, FilesStayReadable) {
+  for (char const* room : {"src", "tools", "tests", "bench"}) {
+    for (auto const& entry : fs::recursive_directory_iterator(fs::path(CREDO_SOURCE_DIR) / room)) {
+      auto const extension = entry.path().extension();
+      if (extension != ".hpp" && extension != ".cpp") {
+        continue;
+      }
+      std::ifstream file(entry.path());
+      int lines = 0;
+      for (std::string line; std::getline(file, line);) {
+        ++lines;
+      }
+      EXPECT_LE(lines, 400) << entry.path() << " is too long: split it";
+    }
+  }
+}
+
+}  // namespace
