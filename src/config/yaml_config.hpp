@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/fields.hpp"
+
+namespace credo {
+
+/// Applies YAML files and then `key.path=value` overrides onto the described structs, later ones
+/// over earlier ones. Everything is checked, and all errors are reported at once: throws InputError
+/// with one line for each (file:line:column: key = value: what is wrong). The structs are then
+/// partly changed and must not be used.
+void load_config(FieldList const& fields, std::vector<std::filesystem::path> const& files,
+                 std::vector<std::string> const& overrides);
+
+/// The current values as YAML, each with its text, unit and range as a comment. Loading it gives
+/// the same values, to the bit.
+std::string config_yaml(FieldList const& fields);
+
+/// The same as a Markdown table: key, value, unit, range, text.
+std::string config_markdown(FieldList const& fields);
+
+}  // namespace credo

@@ -1,0 +1,100 @@
+#include "io/belief_json.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace credo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename Vector>
+Json numbers(Vector const& v) {
+  Json array = Json::array();
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    array.push_back(static_cast<double>(v(i)));
+  }
+  return array;
+}
+
+template <typename Matrix>
+Json rows(Matrix const& m) {
+  Json array = Json::array();
+  for (Eigen::Index r = 0; r < m.rows(); ++r) {
+    for (Eigen::Index c = 0; c < m.cols(); ++c) {
+      array.push_back(m(r, c));
+    }
+  }
+  return array;
+}
+
+Json label_json(std::optional<LabelCode> const& label) {
+  return label ? Json(*label) : Json(nullptr);
+}
+
+Json floor_json(FloorBelief const& floor) {
+  return {{"normal", numbers(floor.normal)},
+          {"height_m", floor.height_m},
+          {"points", floor.points->size()}};
+}
+
+Json wall_json(WallBelief const& wall) {
+  return {{"id", wall.id},
+          {"segment", Json::array({numbers(wall.segment_start_m), numbers(wall.segment_end_m)})},
+          {"normal", numbers(wall.plane_world.normal)},
+          {"points", wall.points->size()},
+          {"label", label_json(wall.label)}};
+}
+
+Json object_json(ObjectBelief const& object) {
+  PoseDistribution const& pose = object.pose_world;
+  // Symmetric to the last bit, whatever rounding left.
+  Matrix6d const covariance = 0.5 * (pose.covariance + pose.covariance.transpose());
+  return {{"id", object.id},
+          {"type", object.type},
+          {"probability", probability_of(object.log_odds)},
+          {"position", numbers(pose.mean.translation())},
+          {"orientation_xyzw", numbers(pose.mean.rotation().coeffs())},
+          {"covariance", rows(covariance)},
+          {"evidence", to_string(object.evidence)},
+          {"label", label_json(object.label)}};
+}
+
+Json stuff_json(StuffBelief const& stuff) {
+  StuffCluster const& latest = stuff.latest();
+  return {{"id", stuff.id},
+          {"probability", probability_of(stuff.log_odds)},
+          {"history", stuff.history_count},
+          {"points", latest.pixel_count},
+          {"centroid", numbers(latest.centroid_world)},
+          {"min", numbers(latest.bounds_world.min())},
+          {"max", numbers(latest.bounds_world.max())},
+          {"evidence", to_string(stuff.evidence)},
+          {"label", label_json(stuff.label)}};
+}
+
+template <typename T, typename ToJson>
+Json list(std::vector<T> const& values, ToJson const& to_json) {
+  Json array = Json::array();
+  for (T const& value : values) {
+    array.push_back(to_json(value));
+  }
+  return array;
+}
+
+}  // namespace
+
+std::string belief_json(BeliefState const& belief) {
+  Json const line = {{"schema", 1},
+                     {"frame", number(belief.frame)},
+                     {"stamp_ns", belief.stamp_ns},
+                     {"segmented_with", number(belief.segmented_with)},
+                     {"T_world_camera", rows(belief.T_world_camera.matrix())},
+                     {"floor", belief.floor ? floor_json(*belief.floor) : Json(nullptr)},
+                     {"walls", list(belief.walls, wall_json)},
+                     {"objects", list(belief.objects, object_json)},
+                     {"stuff", list(belief.stuff, stuff_json)}};
+  return line.dump();
+}
+
+}  // namespace credo

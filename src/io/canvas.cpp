@@ -1,0 +1,97 @@
+#include "io/canvas.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace credo {
+namespace {
+
+/// The rotation of an optical frame (x right, y down, z forward) that looks along `forward`.
+Eigen::Matrix3d looking_along(Eigen::Vector3d const& forward, Eigen::Vector3d const& up) {
+  Eigen::Matrix3d R_world_view;
+  Eigen::Vector3d const right = forward.cross(up).normalized();
+  R_world_view.col(0) = right;
+  R_world_view.col(1) = forward.cross(right);
+  R_world_view.col(2) = forward;
+  return R_world_view;
+}
+
+/// The horizontal direction the camera looks in; along x where it looks straight down.
+Eigen::Vector3d heading(Se3 const& T_world_camera) {
+  Eigen::Vector3d forward = T_world_camera.rotation() * Eigen::Vector3d::UnitZ();
+  forward.z() = 0.0;
+  return forward.norm() > 1e-3 ? Eigen::Vector3d(forward.normalized()) : Eigen::Vector3d::UnitX();
+}
+
+Se3 view_from(Eigen::Matrix3d const& R_world_view, Eigen::Vector3d const& eye_world) {
+  return Se3(Eigen::Quaterniond(R_world_view), eye_world).inverse();
+}
+
+}  // namespace
+
+std::optional<View::Projection> View::project(Eigen::Vector3d const& p_world) const {
+  Eigen::Vector3d const p = T_view_world * p_world;
+  if (!(p.z() > 0.05)) {
+    return std::nullopt;
+  }
+  double const zoom = perspective ? scale / p.z() : scale;
+  double const x = 0.5 * panel.width + zoom * p.x();
+  double const y = 0.5 * panel.height + zoom * p.y();
+  if (!(std::abs(x) < 1e6) || !(std::abs(y) < 1e6)) {
+    return std::nullopt;
+  }
+  return Projection{static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)), p.z()};
+}
+
+View oblique_view(Se3 const& T_world_camera, Panel const& panel) {
+  Eigen::Vector3d const ahead = heading(T_world_camera);
+  Eigen::Vector3d const eye =
+      T_world_camera.translation() - 1.2 * ahead + Eigen::Vector3d(0, 0, 1.4);
+  Eigen::Vector3d const target =
+      T_world_camera.translation() + 2.0 * ahead - Eigen::Vector3d(0, 0, 0.9);
+  return {panel,
+          view_from(looking_along((target - eye).normalized(), Eigen::Vector3d::UnitZ()), eye),
+          0.85 * panel.width, true};
+}
+
+View map_view(Se3 const& T_world_camera, Panel const& panel) {
+  constexpr double kHeightM = 50.0;
+  Eigen::Vector3d eye = T_world_camera.translation() + 1.5 * heading(T_world_camera);
+  eye.z() = kHeightM;
+  return {panel, view_from(looking_along(-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY()), eye),
+          panel.height / 7.0, false};
+}
+
+Splats::Splats(View const& view, Canvas& canvas)
+    : view_(view),
+      canvas_(canvas),
+      depth_m_(view.panel.width, view.panel.height, std::numeric_limits<float>::infinity()) {}
+
+void Splats::point(Eigen::Vector3d const& p_world, Rgb color, int radius_px) {
+  auto const at = view_.project(p_world);
+  if (!at) {
+    return;
+  }
+  auto const depth_m = static_cast<float>(at->depth_m);
+  for (int y = at->y - radius_px + 1; y < at->y + radius_px; ++y) {
+    for (int x = at->x - radius_px + 1; x < at->x + radius_px; ++x) {
+      if (depth_m_.contains({x, y}) && depth_m < depth_m_[Pixel{x, y}]) {
+        depth_m_[Pixel{x, y}] = depth_m;
+        canvas_.set(view_.panel, x, y, color);
+      }
+    }
+  }
+}
+
+void Splats::line(Eigen::Vector3d const& a_world, Eigen::Vector3d const& b_world, Rgb color) {
+  // Steps of about a pixel for what is near; lines are short and few.
+  double const length_m = (b_world - a_world).norm();
+  int const steps = std::clamp(static_cast<int>(length_m * 120.0), 1, 4000);
+  for (int k = 0; k <= steps; ++k) {
+    double const share = static_cast<double>(k) / steps;
+    point(a_world + share * (b_world - a_world), color, 1);
+  }
+}
+
+}  // namespace credo
