@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/fields.hpp"
+
+namespace credo {
+
+enum class SceneShape : std::uint8_t {
+  kBox,       // size x, y, z
+  kCylinder,  // size radius, height
+  kSphere,    // size radius
+  kTable,     // size x, y, height, thickness of the top, side of a leg
+};
+
+/// What a thing is to the belief.
+enum class SceneKind : std::uint8_t { kFloor, kWall, kObject, kStuff };
+
+/// One thing of a scene. It stands on the centre of its base, z up, before it is turned and moved.
+struct SceneThing {
+  std::string name;
+  SceneKind kind = SceneKind::kStuff;
+  SceneShape shape = SceneShape::kBox;
+  std::vector<double> size_m;
+  std::vector<double> position_m = {0, 0, 0};
+  /// Turns about the fixed axes x, y, z.
+  std::vector<double> rpy_deg = {0, 0, 0};
+  /// 0 to 255.
+  std::vector<double> color = {180, 180, 180};
+  /// Side of the squares of a checkerboard in two shades; 0 for one shade.
+  double checker_m = 0.0;
+};
+FieldList fields(SceneThing& thing);
+
+/// Where the camera is at a time, and what it looks at; it passes through all of them smoothly.
+struct SceneWaypoint {
+  double time_s = 0.0;
+  std::vector<double> position_m = {0, 0, 1};
+  std::vector<double> look_at_m = {1, 0, 0};
+};
+FieldList fields(SceneWaypoint& waypoint);
+
+struct SceneCamera {
+  int width_px = 640;
+  int height_px = 480;
+  double fx_px = 525.0;
+  double fy_px = 525.0;
+  double cx_px = 319.5;
+  double cy_px = 239.5;
+  double frames_per_s = 30.0;
+  double min_range_m = 0.4;
+  double max_range_m = 8.0;
+  std::vector<SceneWaypoint> path;
+};
+FieldList fields(SceneCamera& camera);
+
+/// A simulated world, z up, floor at z = 0, and the way a camera takes through it.
+struct Scene {
+  std::string name;
+  std::vector<SceneThing> things;
+  SceneCamera camera;
+};
+FieldList fields(Scene& scene);
+
+/// Throws InputError naming the thing that cannot be: sizes missing or not positive, names twice,
+/// no things, no camera path, times that do not rise, a camera that looks at where it is.
+void check_scene(Scene const& scene);
+
+/// The file of a scene given by name (scenes/NAME.yaml of this project) or as a path. Throws
+/// InputError that lists the known names.
+std::filesystem::path find_scene(std::string const& name_or_file);
+
+}  // namespace credo

@@ -1,0 +1,42 @@
+#include "sim/sim_source.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+#include "sim/camera_path.hpp"
+
+namespace credo {
+
+SimSource::SimSource(Scene const& scene, PoseConfig const& pose)
+    : scene_(scene), has_poses_(pose.source == PoseSource::kRecorded), caster_(scene) {
+  if (pose.source == PoseSource::kFile) {
+    throw InputError("scene " + scene.name +
+                     ": a simulated camera has its own poses; pose.source must not be file");
+  }
+  auto const& path = scene_.camera.path;
+  double const duration_s = path.back().time_s - path.front().time_s;
+  frame_count_ =
+      1 + static_cast<std::size_t>(std::floor(duration_s * scene_.camera.frames_per_s + 1e-9));
+}
+
+SourceResult SimSource::next() {
+  if (position_ == frame_count_) {
+    return EndOfSource{};
+  }
+  std::size_t const index = position_++;
+  SceneCamera const& camera = scene_.camera;
+  double const since_s = static_cast<double>(index) / camera.frames_per_s;
+  Se3 const T_world_camera = camera_pose(camera.path, camera.path.front().time_s + since_s);
+  RenderedView view = caster_.render(T_world_camera);
+  auto frame = std::make_shared<Frame>();
+  frame->index = FrameIndex{static_cast<std::int64_t>(index)};
+  frame->stamp_ns = static_cast<std::int64_t>(std::llround(since_s * 1e9));
+  frame->intrinsics = {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
+  frame->cloud_camera = cloud_from_depth(std::move(view.depth_m), frame->intrinsics);
+  frame->color = std::move(view.color);
+  frame->T_source_camera = has_poses_ ? T_world_camera : Se3{};
+  return FramePtr(std::move(frame));
+}
+
+}  // namespace credo

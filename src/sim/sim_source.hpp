@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/capture_config.hpp"
+#include "core/frame_source.hpp"
+#include "sim/ray_caster.hpp"
+#include "sim/scene.hpp"
+
+namespace credo {
+
+/// Plays a scene as a noise-free RGB-D camera: a frame every 1 / frames_per_s from the first
+/// waypoint to the last, with its true pose (source frame = the scene's world), or without where
+/// poses are `fixed`.
+class SimSource : public FrameSource {
+public:
+  /// Throws InputError for a scene that check_scene refuses, or pose.source: file.
+  SimSource(Scene const& scene, PoseConfig const& pose);
+
+  [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
+  SourceResult next() override;
+
+private:
+  Scene scene_;
+  bool has_poses_;
+  RayCaster caster_;
+  std::size_t frame_count_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace credo
