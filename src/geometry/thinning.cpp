@@ -93,7 +93,7 @@ private:
     }
   }
 
-  std::vector<Slot> slots_ = std::vector<Slot>(1024);
+  std::vector<Slot> slots_ = std::vector<Slot>(256);
   std::uint32_t count_ = 0;
   std::uint64_t last_key_ = kEmpty;
   std::uint32_t last_number_ = 0;

@@ -7,12 +7,16 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 namespace credo {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
+
+// A header may claim any size; no depth camera makes larger images than this.
+constexpr int kMaxSidePx = 8192;
 
 struct ContextDeleter {
   void operator()(spng_ctx* context) const { spng_ctx_free(context); }
@@ -30,9 +34,12 @@ struct JpegDeleter {
 
 Bytes read_bytes(std::filesystem::path const& path) {
   std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    fail(ImageFault::kMissing, path, "no such file");
+  }
   auto const size = std::filesystem::file_size(path, error);
   if (error) {
-    fail(ImageFault::kMissing, path, "no such file");
+    fail(ImageFault::kUnreadable, path, "cannot be read: " + error.message());
   }
   if (size == 0) {
     fail(ImageFault::kTruncated, path, "empty file");
@@ -48,6 +55,10 @@ Bytes read_bytes(std::filesystem::path const& path) {
 bool is_png(Bytes const& bytes) {
   return bytes.size() >= 4 && bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N' &&
          bytes[3] == 'G';
+}
+
+bool is_jpeg(Bytes const& bytes) {
+  return bytes.size() >= 3 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[2] == 0xFF;
 }
 
 /// libspng tells a cut file by one of these.
@@ -69,21 +80,39 @@ Context open_png(Bytes const& bytes, std::filesystem::path const& path, spng_ihd
     fail(ImageFault::kUnreadable, path, "not a PNG");
   }
   Context context(spng_ctx_new(0));
-  // A header may claim any size; nothing here is larger than this.
-  check_png(spng_set_image_limits(context.get(), 16384, 16384), path);
+  check_png(spng_set_image_limits(context.get(), kMaxSidePx, kMaxSidePx), path);
   check_png(spng_set_png_buffer(context.get(), bytes.data(), bytes.size()), path);
   check_png(spng_get_ihdr(context.get(), &header), path);
   return context;
 }
 
+/// Decodes all pixels, then reads on to the end: a file may hold every pixel and still be cut.
+void decode_png(Context const& context, void* pixels, std::size_t size, spng_format format,
+                std::filesystem::path const& path) {
+  check_png(spng_decode_image(context.get(), pixels, size, format, 0), path);
+  check_png(spng_decode_chunks(context.get()), path);
+}
+
 Grid<Rgb> read_png_rgb(Bytes const& bytes, std::filesystem::path const& path) {
   spng_ihdr header{};
   Context const context = open_png(bytes, path, header);
+  if (header.bit_depth > 8) {
+    fail(ImageFault::kUnreadable, path,
+         "not an 8-bit colour or grey PNG (" + std::to_string(header.bit_depth) + " bits)");
+  }
   Grid<Rgb> image(static_cast<int>(header.width), static_cast<int>(header.height));
-  check_png(
-      spng_decode_image(context.get(), image.data(), image.size() * sizeof(Rgb), SPNG_FMT_RGB8, 0),
-      path);
+  decode_png(context, image.data(), image.size() * sizeof(Rgb), SPNG_FMT_RGB8, path);
   return image;
+}
+
+/// A cut JPEG is only a warning to the decoder, which fills the rest with grey: here it is an error.
+[[noreturn]] void fail_jpeg(tjhandle handle, std::filesystem::path const& path) {
+  std::string const text = tjGetErrorStr2(handle);
+  // The decoder says the second where the file ends within its header.
+  bool const cut = text.find("remature end") != std::string::npos ||
+                   text.find("contains no image") != std::string::npos;
+  fail(cut ? ImageFault::kTruncated : ImageFault::kUnreadable, path,
+       cut ? "cut short" : "damaged JPEG: " + text);
 }
 
 Grid<Rgb> read_jpeg(Bytes const& bytes, std::filesystem::path const& path) {
@@ -94,24 +123,22 @@ Grid<Rgb> read_jpeg(Bytes const& bytes, std::filesystem::path const& path) {
   int colorspace = 0;
   if (tjDecompressHeader3(handle.get(), bytes.data(), bytes.size(), &width, &height, &subsampling,
                           &colorspace) != 0) {
-    fail(ImageFault::kUnreadable, path, "neither PNG nor JPEG");
+    fail_jpeg(handle.get(), path);
+  }
+  if (width > kMaxSidePx || height > kMaxSidePx) {
+    fail(ImageFault::kUnreadable, path,
+         "claims " + std::to_string(width) + "x" + std::to_string(height) + " pixels");
   }
   Grid<Rgb> image(width, height);
-  // A cut JPEG is only a warning to the decoder, which fills the rest with grey: here it is an
-  // error.
   if (tjDecompress2(handle.get(), bytes.data(), bytes.size(),
                     reinterpret_cast<unsigned char*>(image.data()), width, 0, height, TJPF_RGB,
-                    TJFLAG_FASTDCT) != 0) {
-    std::string const text = tjGetErrorStr2(handle.get());
-    bool const cut = text.find("remature end") != std::string::npos;
-    fail(cut ? ImageFault::kTruncated : ImageFault::kUnreadable, path,
-         cut ? "cut short" : "damaged JPEG: " + text);
+                    0) != 0) {
+    fail_jpeg(handle.get(), path);
   }
   return image;
 }
 
-void write_png(std::filesystem::path const& path, void const* data, std::size_t length,
-               spng_ihdr header) {
+EncodedPng encode(void const* data, std::size_t length, spng_ihdr header) {
   Context const context(spng_ctx_new(SPNG_CTX_ENCODER));
   spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
   spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 1);
@@ -121,14 +148,11 @@ void write_png(std::filesystem::path const& path, void const* data, std::size_t 
   std::unique_ptr<void, void (*)(void*)> const png(
       error == 0 ? spng_get_png_buffer(context.get(), &size, &error) : nullptr, std::free);
   if (error != 0 || png == nullptr) {
-    throw InputError(path.string() + ": cannot be encoded: " + spng_strerror(error));
+    // Only an empty image gets here.
+    throw std::logic_error(std::string("PNG cannot be encoded: ") + spng_strerror(error));
   }
-  std::ofstream file(path, std::ios::binary);
-  file.write(static_cast<char const*>(png.get()), static_cast<std::streamsize>(size));
-  file.close();
-  if (!file) {
-    throw InputError(path.string() + ": cannot be written: is the disk full, or the folder gone?");
-  }
+  auto const* begin = static_cast<unsigned char const*>(png.get());
+  return {begin, begin + size};
 }
 
 spng_ihdr header_of(int width, int height, std::uint8_t bits, std::uint8_t color_type) {
@@ -153,24 +177,47 @@ Grid<std::uint16_t> read_png16(std::filesystem::path const& path) {
   }
   Grid<std::uint16_t> image(static_cast<int>(header.width), static_cast<int>(header.height));
   // SPNG_FMT_PNG is the stored format in host byte order.
-  check_png(spng_decode_image(context.get(), image.data(), image.size() * 2, SPNG_FMT_PNG, 0),
-            path);
+  decode_png(context, image.data(), image.size() * sizeof(std::uint16_t), SPNG_FMT_PNG, path);
   return image;
 }
 
 Grid<Rgb> read_color(std::filesystem::path const& path) {
   Bytes const bytes = read_bytes(path);
-  return is_png(bytes) ? read_png_rgb(bytes, path) : read_jpeg(bytes, path);
+  if (is_png(bytes)) {
+    return read_png_rgb(bytes, path);
+  }
+  if (is_jpeg(bytes)) {
+    return read_jpeg(bytes, path);
+  }
+  fail(ImageFault::kUnreadable, path, "neither PNG nor JPEG");
+}
+
+EncodedPng encode_png16(Grid<std::uint16_t> const& image) {
+  return encode(image.data(), image.size() * sizeof(std::uint16_t),
+                header_of(image.width(), image.height(), 16, SPNG_COLOR_TYPE_GRAYSCALE));
+}
+
+EncodedPng encode_png_rgb(Grid<Rgb> const& image) {
+  return encode(image.data(), image.size() * sizeof(Rgb),
+                header_of(image.width(), image.height(), 8, SPNG_COLOR_TYPE_TRUECOLOR));
+}
+
+void write_bytes(std::filesystem::path const& path, EncodedPng const& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<char const*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) {
+    throw InputError(path.string() + ": cannot be written: is the disk full, or the folder gone?");
+  }
 }
 
 void write_png16(std::filesystem::path const& path, Grid<std::uint16_t> const& image) {
-  write_png(path, image.data(), image.size() * 2,
-            header_of(image.width(), image.height(), 16, SPNG_COLOR_TYPE_GRAYSCALE));
+  write_bytes(path, encode_png16(image));
 }
 
 void write_png_rgb(std::filesystem::path const& path, Grid<Rgb> const& image) {
-  write_png(path, image.data(), image.size() * sizeof(Rgb),
-            header_of(image.width(), image.height(), 8, SPNG_COLOR_TYPE_TRUECOLOR));
+  write_bytes(path, encode_png_rgb(image));
 }
 
 }  // namespace credo

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/frame.hpp"
@@ -31,8 +32,13 @@ Grid<std::uint16_t> read_png16(std::filesystem::path const& path);
 /// the decoder would fill the rest with grey.
 Grid<Rgb> read_color(std::filesystem::path const& path);
 
-/// Compressed lightly: these are written at frame rate. Throw InputError where the file cannot be
-/// written.
+/// A PNG file in memory. Compressed lightly: these are made at frame rate.
+using EncodedPng = std::vector<unsigned char>;
+EncodedPng encode_png16(Grid<std::uint16_t> const& image);
+EncodedPng encode_png_rgb(Grid<Rgb> const& image);
+
+/// Throw InputError where the file cannot be written.
+void write_bytes(std::filesystem::path const& path, EncodedPng const& bytes);
 void write_png16(std::filesystem::path const& path, Grid<std::uint16_t> const& image);
 void write_png_rgb(std::filesystem::path const& path, Grid<Rgb> const& image);
 

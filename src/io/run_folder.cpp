@@ -81,12 +81,12 @@ void RunFolder::write_belief(std::string const& json_line) {
   }
 }
 
-void RunFolder::write_labels(FrameIndex frame, LabelMap const& labels) const {
-  write_png16(image_path(folder_ / "labels", frame), labels);
+void RunFolder::write_labels(FrameIndex frame, EncodedPng const& labels) const {
+  write_bytes(image_path(folder_ / "labels", frame), labels);
 }
 
-void RunFolder::write_picture(FrameIndex frame, Grid<Rgb> const& picture) const {
-  write_png_rgb(image_path(folder_ / "pictures", frame), picture);
+void RunFolder::write_picture(FrameIndex frame, EncodedPng const& picture) const {
+  write_bytes(image_path(folder_ / "pictures", frame), picture);
 }
 
 void RunFolder::write_metrics(RunMetrics const& metrics) const {

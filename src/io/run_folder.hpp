@@ -6,8 +6,7 @@
 
 #include "core/belief.hpp"
 #include "core/frame.hpp"
-#include "core/grid.hpp"
-#include "core/label.hpp"
+#include "io/image.hpp"
 #include "io/metrics.hpp"
 
 namespace credo {
@@ -23,9 +22,8 @@ public:
 
   /// Appends a line and hands it to the system, so that a kill loses no finished frame.
   void write_belief(std::string const& json_line);
-  /// May be called by several threads, for different frames.
-  void write_labels(FrameIndex frame, LabelMap const& labels) const;
-  void write_picture(FrameIndex frame, Grid<Rgb> const& picture) const;
+  void write_labels(FrameIndex frame, EncodedPng const& labels) const;
+  void write_picture(FrameIndex frame, EncodedPng const& picture) const;
   /// Written beside and renamed, so that a reader never sees half of it.
   void write_metrics(RunMetrics const& metrics) const;
 

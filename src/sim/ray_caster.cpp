@@ -149,7 +149,7 @@ Rgb shade(SceneThing const& thing, Eigen::Vector3f const& p_thing, float cosine)
 struct RayCaster::World {
   Scene scene;
   std::vector<Se3> T_thing_world;
-  RTCDevice device = rtcNewDevice("threads=1");
+  RTCDevice device = rtcNewDevice(nullptr);
   RTCScene geometry = rtcNewScene(device);
 
   explicit World(Scene const& description) : scene(description) {
@@ -207,7 +207,7 @@ void RayCaster::World::render_row(Se3 const& T_world_camera, int v, RenderedView
   Eigen::Vector3f const origin = T_world_camera.translation().cast<float>();
   for (int first = 0; first < camera.width_px; first += kLanes) {
     RTCRayHit8 rays{};
-    std::array<int, kLanes> valid{};
+    alignas(32) std::array<int, kLanes> valid{};  // Embree loads it whole
     std::array<Eigen::Vector3f, kLanes> directions;
     for (int lane = 0; lane < kLanes; ++lane) {
       int const u = first + lane;

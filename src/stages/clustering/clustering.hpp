@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/cloud.hpp"
+#include "core/fields.hpp"
+#include "core/frame.hpp"
+#include "core/segmentation.hpp"
+
+namespace credo {
+
+/// Stuff (thesis 3.3 and algorithm 3). The defaults are the thesis' numbers, marked T.
+struct ClusteringConfig {
+  /// Two points join one cluster within this distance (T: 0.05) ...
+  double radius_m = 0.05;
+  /// ... if their normals differ by less than this (T: 0.3).
+  double max_angle_rad = 0.3;
+  /// Clusters of fewer points with a normal are ignored; their pixels stay unassigned (T: 25).
+  int min_pixels = 25;
+  /// Pixels without a normal take a label from no farther than this in the image; see
+  /// spread_labels.
+  int spread_px = 5;
+  /// Spacing of a cluster's points in the belief.
+  double point_spacing_m = 0.02;
+};
+FieldList fields(ClusteringConfig& config);
+
+/// Clusters what nothing else has explained: the pixels of `frame` that `segmentation` leaves
+/// kUnassigned and that have a normal (camera frame). Each cluster becomes a StuffCluster and gets
+/// a label, kFirstStuff + i by the first pixel in raster order; should there be more than
+/// kMaxStuff, the largest stay. Then pixels without a normal take the label of what they touch, be
+/// it stuff, floor, wall or object.
+///
+/// A StuffCluster stands for all pixels that carry its label in the end: pixel_count is their
+/// number, centroid (within the bounds) and points are theirs. The entries of floor, walls and
+/// objects stay as they came: they count what made them. Nothing to cluster gives no stuff.
+///
+/// Throws std::logic_error where the sizes differ or `segmentation` already holds stuff.
+[[nodiscard]] Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals,
+                                         Segmentation segmentation, ClusteringConfig const& config);
+
+}  // namespace credo

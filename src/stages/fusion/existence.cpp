@@ -1,0 +1,46 @@
+#include "stages/fusion/existence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace credo {
+
+ViewChange view_change(BeliefState const& belief, Segmentation const& segmentation) {
+  ViewChange change;
+  change.camera_now_world = segmentation.T_world_camera.translation();
+  if (belief.frame != kPriorFrame) {
+    constexpr double kSecondsPerNanosecond = 1e-9;
+    change.camera_before_world = belief.T_world_camera.translation();
+    change.elapsed_s = std::max(
+        0.0, static_cast<double>(segmentation.stamp_ns - belief.stamp_ns) * kSecondsPerNanosecond);
+  }
+  return change;
+}
+
+double novelty(ViewChange const& change, Eigen::Vector3d const& point_world,
+               ExistenceConfig const& config) {
+  if (!change.camera_before_world || config.correlation_time_s == 0.0) {
+    return 1.0;
+  }
+  Eigen::Vector3d const before = point_world - *change.camera_before_world;
+  Eigen::Vector3d const now = point_world - change.camera_now_world;
+  double const turned_rad = std::atan2(before.cross(now).norm(), before.dot(now));
+  return 1.0 - std::exp(-(change.elapsed_s / config.correlation_time_s +
+                          turned_rad / config.correlation_angle_rad));
+}
+
+double updated_log_odds(double log_odds, Evidence before, Evidence now, double novelty,
+                        ExistenceConfig const& config) {
+  bool const seen = now == Evidence::kSeen;
+  double const if_present = seen ? config.seen_if_present : 1.0 - config.seen_if_present;
+  double const if_absent = seen ? config.seen_if_absent : 1.0 - config.seen_if_absent;
+  bool const changed = seen != (before == Evidence::kSeen);
+  double const k = changed ? 1.0 : novelty;
+  double const updated =
+      log_odds + std::log((1.0 - k + k * if_present) / (1.0 - k + k * if_absent));
+  return config.max_log_odds == 0.0
+             ? updated
+             : std::clamp(updated, -config.max_log_odds, config.max_log_odds);
+}
+
+}  // namespace credo

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/belief.hpp"
+#include "core/fields.hpp"
+#include "core/segmentation.hpp"
+
+namespace credo {
+
+/// How observations move the probability that a thing is there (thesis equation 4.1).
+struct ExistenceConfig {
+  /// P(seen | there), and P(not seen | not there) = 1 - P(seen | not there).
+  double seen_if_present = 0.95;
+  double seen_if_absent = 0.05;
+  /// Stuff is forgotten below this.
+  double min_probability = 0.15;
+  /// Bound on |log-odds|, so that what was seen for long is not believed for long after it went; 0
+  /// for none.
+  double max_log_odds = 4.6;
+  /// Over how long, and over what turn of the line of sight, frames repeat each other
+  /// (existence.hpp). A time of 0 counts every frame in full.
+  double correlation_time_s = 0.25;
+  double correlation_angle_rad = 0.175;
+};
+FieldList fields(ExistenceConfig& config);
+
+/// How observations of the floor add up (thesis 4.2).
+struct FloorFusionConfig {
+  double point_spacing_m = 0.05;
+  /// A floor that has as many points takes no more; its plane is still updated.
+  int max_points = 50000;
+};
+FieldList fields(FloorFusionConfig& config);
+
+/// When two walls are one, and how they add up (thesis 4.2, algorithm 5).
+struct WallFusionConfig {
+  /// Least that the norm of the cross product of two walls' normals must be for them to differ.
+  double max_normal_cross = 0.1;
+  double max_offset_m = 0.05;
+  /// Common part of two segments, of the shorter one.
+  double min_overlap_ratio = 0.4;
+  /// Part of an observation's points that may lie beyond each end of its segment.
+  double segment_trim_ratio = 0.005;
+  /// Walls of the belief that have come to match each other become one.
+  bool merge_known = true;
+  double point_spacing_m = 0.05;
+  /// A wall that has as many points takes no more; its plane and segment are still updated.
+  int max_points = 20000;
+};
+FieldList fields(WallFusionConfig& config);
+
+/// What decides which cluster fits another best.
+enum class StuffScore : std::uint8_t {
+  /// The mean of the squared distances, so that large clusters are not at a disadvantage.
+  kMean,
+  /// Their sum (thesis 4.3).
+  kSum,
+};
+
+/// When a cluster is a thing that the belief holds, and what is kept of it (thesis 4.3, algorithm
+/// 6).
+struct StuffFusionConfig {
+  /// Bounding boxes this far apart still count as overlapping.
+  double box_margin_m = 0.02;
+  /// ICP sees at most as many points of a cluster, 8 or more, thinned from `point_spacing_m`
+  /// upward.
+  int max_icp_points = 128;
+  double point_spacing_m = 0.02;
+  int max_icp_iterations = 10;
+  double min_icp_step_m = 1e-3;
+  StuffScore score = StuffScore::kMean;
+  /// Limits to what ICP may do to call two clusters the same; 0 for none. Half the spacing of the
+  /// thinned points is added to the RMS: two samples of one surface differ by that much.
+  double max_rms_m = 0.03;
+  double max_displacement_m = 0.15;
+  /// Clusters kept of a history; older ones are counted only.
+  int kept_clusters = 3;
+};
+FieldList fields(StuffFusionConfig& config);
+
+struct FusionConfig {
+  /// That a known object, or stuff seen for the first time, is there.
+  double prior_probability = 0.99;
+  ExistenceConfig existence;
+  FloorFusionConfig floor;
+  WallFusionConfig walls;
+  StuffFusionConfig stuff;
+};
+FieldList fields(FusionConfig& config);
+
+/// The belief after one more frame (thesis chapter 4). `prior` is the belief after the frame
+/// before, whatever belief the frame was segmented with. World frame throughout.
+///
+/// Total: an empty segmentation is a frame in which nothing was seen. Planes without a finite point
+/// and clusters without points are passed over. Objects are found again by id; one that the belief
+/// does not hold is passed over. An object's pose distribution stays as it is.
+[[nodiscard]] BeliefState fuse(BeliefState prior, Segmentation const& segmentation,
+                               FusionConfig const& config);
+
+}  // namespace credo

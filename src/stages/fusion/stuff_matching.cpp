@@ -1,0 +1,147 @@
+#include "stages/fusion/stuff_matching.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "geometry/icp.hpp"
+#include "geometry/thinning.hpp"
+
+namespace credo {
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// A cluster as ICP sees it.
+struct Sample {
+  PointList points;
+  double spacing_m = 0.0;
+};
+
+/// Thinned until few enough; each spacing is sqrt 2 times the one before, where a surface has half
+/// the cells. Spacings that would by far not do are left out. The grids are fixed in the world, so
+/// that a thing that stands still is sampled alike each time; eight cells meet at the origin, so
+/// that fewer than eight points may be out of reach.
+Sample sampled(StuffCluster const& cluster, StuffFusionConfig const& config) {
+  constexpr double kCoarser = std::numbers::sqrt2;
+  auto const most = static_cast<std::size_t>(config.max_icp_points);
+  Sample sample{cluster.points_world, config.point_spacing_m};
+  for (std::size_t expected = sample.points.size(); expected > 4 * most; expected /= 2) {
+    sample.spacing_m *= kCoarser;
+  }
+  while (sample.points.size() > most) {
+    sample.points = thin_points(sample.points, static_cast<float>(sample.spacing_m));
+    sample.spacing_m *= kCoarser;
+  }
+  return sample;
+}
+
+/// One candidate and its scores; lower is better, none where a limit is exceeded.
+struct Pair {
+  std::size_t known = 0;
+  std::size_t seen = 0;
+  std::optional<double> seen_to_known;
+  std::optional<double> known_to_seen;
+
+  [[nodiscard]] bool aligned() const { return seen_to_known && known_to_seen; }
+};
+
+std::vector<Pair> overlapping_pairs(std::span<StuffCluster const* const> known,
+                                    std::span<StuffCluster const> seen, double margin_m) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    Eigen::AlignedBox3f box = known[i]->bounds_world;
+    Eigen::Vector3f const margin = Eigen::Vector3f::Constant(static_cast<float>(margin_m));
+    box.min() -= margin;
+    box.max() += margin;
+    for (std::size_t j = 0; j < seen.size(); ++j) {
+      if (box.intersects(seen[j].bounds_world)) {
+        pairs.push_back({i, j, std::nullopt, std::nullopt});
+      }
+    }
+  }
+  return pairs;
+}
+
+std::optional<double> score(Sample const& source, Sample const& target,
+                            StuffFusionConfig const& config) {
+  double const sampling_m = 0.5 * std::max(source.spacing_m, target.spacing_m);
+  IcpConfig const icp{
+      .max_iterations = config.max_icp_iterations,
+      .min_step_m = config.min_icp_step_m,
+      .max_rms_m = config.max_rms_m == 0.0 ? kNoLimit : config.max_rms_m + sampling_m,
+      .max_displacement_m =
+          config.max_displacement_m == 0.0 ? kNoLimit : config.max_displacement_m};
+  std::optional<IcpAlignment> const alignment = align_icp(source.points, target.points, icp);
+  if (!alignment) {
+    return std::nullopt;
+  }
+  return config.score == StuffScore::kSum ? alignment->sum_squared_m2
+                                          : alignment->rms_m * alignment->rms_m;
+}
+
+void align(std::vector<Pair>& pairs, std::vector<Sample> const& known,
+           std::vector<Sample> const& seen, StuffFusionConfig const& config) {
+  // Isolated: a thread that waits here must not take up another frame's work.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
+      Pair& pair = pairs[i];
+      pair.seen_to_known = score(seen[pair.seen], known[pair.known], config);
+      if (pair.seen_to_known) {
+        pair.known_to_seen = score(known[pair.known], seen[pair.seen], config);
+      }
+    });
+  });
+}
+
+}  // namespace
+
+std::vector<std::optional<std::size_t>> match_clusters(std::span<StuffCluster const* const> known,
+                                                       std::span<StuffCluster const> seen,
+                                                       StuffFusionConfig const& config) {
+  std::vector<Pair> pairs = overlapping_pairs(known, seen, config.box_margin_m);
+  // Those without a partner stay empty: most of what is out of view.
+  std::vector<Sample> known_samples(known.size());
+  std::vector<Sample> seen_samples(seen.size());
+  for (Pair const& pair : pairs) {
+    if (known_samples[pair.known].points.empty()) {
+      known_samples[pair.known] = sampled(*known[pair.known], config);
+    }
+    if (seen_samples[pair.seen].points.empty()) {
+      seen_samples[pair.seen] = sampled(seen[pair.seen], config);
+    }
+  }
+  align(pairs, known_samples, seen_samples, config);
+
+  std::vector<Pair const*> best_for_known(known.size(), nullptr);
+  std::vector<Pair const*> best_for_seen(seen.size(), nullptr);
+  for (Pair const& pair : pairs) {
+    if (!pair.aligned()) {
+      continue;
+    }
+    Pair const*& of_known = best_for_known[pair.known];
+    if (of_known == nullptr || *pair.seen_to_known < *of_known->seen_to_known ||
+        (*pair.seen_to_known == *of_known->seen_to_known &&
+         seen[pair.seen].label < seen[of_known->seen].label)) {
+      of_known = &pair;
+    }
+    // Pairs come by ascending known cluster: of equals the first stays.
+    Pair const*& of_seen = best_for_seen[pair.seen];
+    if (of_seen == nullptr || *pair.known_to_seen < *of_seen->known_to_seen) {
+      of_seen = &pair;
+    }
+  }
+  std::vector<std::optional<std::size_t>> matches(known.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (best_for_known[i] != nullptr &&
+        best_for_seen[best_for_known[i]->seen] == best_for_known[i]) {
+      matches[i] = best_for_known[i]->seen;
+    }
+  }
+  return matches;
+}
+
+}  // namespace credo

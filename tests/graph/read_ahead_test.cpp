@@ -1,0 +1,82 @@
+#include "graph/read_ahead.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "graph/fakes.hpp"
+
+namespace credo {
+namespace {
+
+std::vector<std::int64_t> rest_of(FrameSource& source) {
+  std::vector<std::int64_t> indices;
+  for (;;) {
+    SourceResult const result = source.next();
+    if (std::holds_alternative<EndOfSource>(result)) {
+      return indices;
+    }
+    auto const* frame = std::get_if<FramePtr>(&result);
+    indices.push_back(
+        number(frame != nullptr ? (*frame)->index : std::get<FrameFailure>(result).index));
+  }
+}
+
+TEST(ReadAhead, GivesWhatWasLookedAtAgainInItsTurn) {
+  ReadAhead source(std::make_unique<test::FakeSource>(5));
+  source.peek();
+  EXPECT_EQ(std::get<FramePtr>(source.peek())->index, FrameIndex{1});
+  EXPECT_EQ(rest_of(source), test::first(5));
+  EXPECT_TRUE(std::holds_alternative<EndOfSource>(source.next()));
+}
+
+TEST(ReadAhead, CanLookAtTheEnd) {
+  ReadAhead source(std::make_unique<test::FakeSource>(1));
+  source.peek();
+  EXPECT_TRUE(std::holds_alternative<EndOfSource>(source.peek()));
+  EXPECT_EQ(rest_of(source), test::first(1));
+}
+
+TEST(ReadAhead, EndsAfterSoManyFramesThoseLookedAtIncluded) {
+  ReadAhead source(std::make_unique<test::FakeSource>(9), 3);
+  source.peek();
+  EXPECT_EQ(rest_of(source), test::first(3));
+  EXPECT_TRUE(std::holds_alternative<EndOfSource>(source.next()));
+}
+
+TEST(FindLevelAhead, LosesNoFrameAndFallsBackToTheConfigWithoutAFloor) {
+  auto bad_first = [](std::int64_t index) -> SourceResult {
+    if (index == 0) {
+      return FrameFailure{FrameIndex{0}, "noise", "unreadable"};
+    }
+    return test::tiny_frame(index);
+  };
+  PoseConfig config;
+  config.level_frames = 4;
+  config.camera_height_m = 1.5;
+  ReadAhead source(std::make_unique<test::FakeSource>(6, bad_first));
+  WorldLevel const level = find_level_ahead(source, config);
+  EXPECT_FALSE(level.floor_found);
+  EXPECT_DOUBLE_EQ(level.T_world_source.translation().z(), 1.5);
+  EXPECT_EQ(rest_of(source), test::first(6));
+}
+
+TEST(FindLevelAhead, ReadsNothingWhereTheSourceIsLevel) {
+  auto fake = std::make_unique<test::FakeSource>(6);
+  test::FakeSource const& inner = *fake;
+  ReadAhead source(std::move(fake));
+  PoseConfig config;
+  config.level = LevelMode::kOff;
+  EXPECT_TRUE(find_level_ahead(source, config).floor_found);
+  EXPECT_EQ(inner.given(), 0);
+}
+
+TEST(FindLevelAhead, AnEmptySourceIsNoError) {
+  ReadAhead source(std::make_unique<test::FakeSource>(0));
+  EXPECT_FALSE(find_level_ahead(source, PoseConfig{}).floor_found);
+}
+
+}  // namespace
+}  // namespace credo

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace credo {
+
+/// What a subcommand does once its arguments are read; returns the exit code.
+using Command = std::function<int()>;
+
+// Each adds its subcommand to the command line, which sets `chosen` when it is used.
+void add_run_command(CLI::App& app, Command& chosen);
+void add_config_command(CLI::App& app, Command& chosen);
+
+}  // namespace credo

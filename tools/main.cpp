@@ -1,0 +1,63 @@
+#include <exception>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "commands.hpp"
+#include "core/error.hpp"
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kBadInput = 2;
+
+constexpr char const* kExamples = R"(Examples:
+  credo run --source dataset:recordings/kitchen --out out/kitchen --dump labels,pictures
+  credo run --source dataset:recordings/kitchen --frames 40 --set graph.threads=1
+  credo config --set fusion.prior_probability=0.9 > my.yaml
+  credo run --source sim:first-light --config my.yaml --out out/room
+
+Exit codes: 0 done (also when stopped by Ctrl-C), 2 bad usage, config or input, 1 anything else.
+`credo COMMAND --help` tells more.)";
+
+/// Every line of an error stands for itself.
+void print_error(std::string const& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::cerr << "credo: " << line << '\n';
+  }
+}
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("Credo: what a robot believes is around it, from an RGB-D camera, in real time",
+               "credo");
+  app.set_version_flag("--version", "credo " CREDO_VERSION);
+  app.footer(kExamples);
+  app.require_subcommand(1);
+  credo::Command chosen;
+  credo::add_run_command(app, chosen);
+  credo::add_config_command(app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (CLI::Success const& help) {
+    return app.exit(help);
+  } catch (CLI::ParseError const& error) {
+    print_error(std::string(error.what()) + "; see credo --help");
+    return kBadInput;
+  }
+  return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_command_line(argc, argv);
+  } catch (credo::InputError const& error) {
+    print_error(error.what());
+    return kBadInput;
+  } catch (std::exception const& error) {
+    print_error(std::string("unexpected: ") + error.what());
+    return kFailed;
+  }
+}

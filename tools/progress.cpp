@@ -1,0 +1,91 @@
+#include "progress.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace credo {
+namespace {
+
+constexpr auto kRedraw = std::chrono::milliseconds(100);
+constexpr auto kNewLine = std::chrono::seconds(5);
+constexpr int kLostTold = 10;
+
+std::string counts_text(std::map<std::string, std::uint64_t> const& counts) {
+  std::string text;
+  for (auto const& [reason, count] : counts) {
+    text += fmt::format("{}{} {}", text.empty() ? " (" : ", ", count, reason);
+  }
+  return text.empty() ? text : text + ")";
+}
+
+void append_row(std::string& table, std::string const& name, DurationQuantiles const& times) {
+  table += fmt::format("  {:<12}{:>8}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}\n", name, times.count,
+                       times.p50_ms, times.p95_ms, times.p99_ms, times.max_ms);
+}
+
+}  // namespace
+
+Progress::Progress(std::optional<std::int64_t> frame_count)
+    : terminal_(isatty(STDERR_FILENO) != 0), frame_count_(frame_count), last_shown_(Clock::now()) {}
+
+void Progress::show(FrameResult const& result) {
+  ++frames_since_;
+  auto const now = Clock::now();
+  auto const since = now - last_shown_;
+  if (since < (terminal_ ? Clock::duration(kRedraw) : Clock::duration(kNewLine))) {
+    return;
+  }
+  BeliefState const& belief = *result.belief;
+  std::string const of = frame_count_.has_value() ? fmt::format("/{}", *frame_count_) : "";
+  std::string const line = fmt::format(
+      "frame {}{}  {:.1f} fps  {:.0f} ms  {}, {} walls, {} stuff", number(belief.frame) + 1, of,
+      static_cast<double>(frames_since_) / std::chrono::duration<double>(since).count(),
+      std::chrono::duration<double, std::milli>(now - result.captured).count(),
+      belief.floor.has_value() ? "floor" : "no floor", belief.walls.size(), belief.stuff.size());
+  fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\033[K" : "\n");
+  std::fflush(stderr);
+  line_open_ = terminal_;
+  last_shown_ = now;
+  frames_since_ = 0;
+}
+
+void Progress::lost(FrameFailure const& failure) {
+  int const told = ++lost_by_reason_[failure.reason];
+  if (told > kLostTold) {
+    return;
+  }
+  finish();
+  spdlog::warn("frame {} lost: {}: {}{}", number(failure.index), failure.reason, failure.message,
+               told == kLostTold ? " (more of these are only counted)" : "");
+}
+
+void Progress::finish() {
+  if (line_open_) {
+    fmt::print(stderr, "\r\033[K");
+    line_open_ = false;
+  }
+}
+
+std::string summary_table(RunMetrics const& metrics) {
+  std::uint64_t dropped = 0;
+  for (auto const& [reason, count] : metrics.dropped) {
+    dropped += count;
+  }
+  std::string table = fmt::format(
+      "{} frames in, {} out, {} failed{}, {} dropped{}\n"
+      "{:.1f} s, {:.1f} fps, {:.1f} s of processor time, {:.0f} MB at most\n"
+      "  {:<12}{:>8}{:>10}{:>10}{:>10}{:>10}\n",
+      metrics.frames_in, metrics.frames_out, metrics.failed, counts_text(metrics.failures), dropped,
+      counts_text(metrics.dropped), metrics.wall_s, metrics.fps, metrics.cpu_s, metrics.peak_rss_mb,
+      "ms", "frames", "p50", "p95", "p99", "max");
+  for (auto const& [name, times] : metrics.stages) {
+    append_row(table, name, times);
+  }
+  append_row(table, "latency", metrics.latency);
+  return table;
+}
+
+}  // namespace credo

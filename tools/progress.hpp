@@ -1,0 +1,43 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/frame_source.hpp"
+#include "graph/run_sink.hpp"
+#include "io/metrics.hpp"
+
+namespace credo {
+
+/// How a run shows itself to the person who started it, on stderr: one line that is redrawn where
+/// that is a terminal, a line every few seconds where it is not; lost frames in the log. Called by
+/// one thread at a time.
+class Progress {
+public:
+  /// `frame_count` of a source that knows its end.
+  explicit Progress(std::optional<std::int64_t> frame_count);
+
+  void show(FrameResult const& result);
+  /// Logs the first few of each reason; the rest are only counted.
+  void lost(FrameFailure const& failure);
+  /// Ends the redrawn line.
+  void finish();
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  bool terminal_;
+  std::optional<std::int64_t> frame_count_;
+  Clock::time_point last_shown_;
+  std::int64_t frames_since_ = 0;
+  bool line_open_ = false;
+  std::map<std::string, int> lost_by_reason_;
+};
+
+/// The table at the end of a run.
+std::string summary_table(RunMetrics const& metrics);
+
+}  // namespace credo

@@ -1,0 +1,149 @@
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "config/yaml_config.hpp"
+#include "config_arguments.hpp"
+#include "core/error.hpp"
+#include "graph/pipeline.hpp"
+#include "graph/read_ahead.hpp"
+#include "progress.hpp"
+#include "run_output.hpp"
+#include "source_uri.hpp"
+#include "stop_on_signal.hpp"
+
+namespace credo {
+namespace {
+
+constexpr char const* kExamples = R"(Examples:
+  credo run --source dataset:recordings/kitchen --out out/kitchen --dump labels,pictures
+  credo run --source dataset:recordings/kitchen --frames 40 --set graph.threads=1
+  credo run --source dataset:clouds --set capture.independent_frames=true --out out/clouds
+
+Into --out go belief.jsonl (one line a good frame), metrics.json, config.yaml (resolved), and with
+--dump labels/NNNNNN.png and pictures/NNNNNN.png. Ctrl-C finishes the frames under way and writes
+everything; a second one does not wait.)";
+
+struct RunCommand {
+  std::string source;
+  ConfigArguments config;
+  std::optional<std::filesystem::path> prior;
+  std::optional<std::int64_t> frames;
+  std::optional<std::filesystem::path> out;
+  std::vector<std::string> dump;
+  bool no_dds = false;
+  double linger_s = 0.0;
+};
+
+Dump dump_of(RunCommand const& command) {
+  auto const wants = [&](char const* what) {
+    return std::find(command.dump.begin(), command.dump.end(), what) != command.dump.end();
+  };
+  return {wants("labels"), wants("pictures")};
+}
+
+void check_usage(RunCommand const& command) {
+  if (!command.dump.empty() && !command.out.has_value()) {
+    throw InputError("--dump has nowhere to write: add --out DIR");
+  }
+  if (command.prior.has_value()) {
+    throw InputError("--prior " + command.prior->string() +
+                     ": this build knows no objects yet; leave it out to start from nothing");
+  }
+}
+
+void log_to_stderr() {
+  auto logger = spdlog::stderr_color_mt("credo");
+  logger->set_pattern("%^%l%$: %v");
+  spdlog::set_default_logger(std::move(logger));
+}
+
+WorldLevel level_of(ReadAhead& source, PipelineConfig const& config, Workers& workers) {
+  if (config.capture.independent_frames) {
+    spdlog::info("each frame is a scene of its own, levelled by itself");
+    return {};
+  }
+  WorldLevel level = workers.execute([&] { return find_level_ahead(source, config.pose); });
+  spdlog::log(level.floor_found ? spdlog::level::info : spdlog::level::warn, level.note);
+  return level;
+}
+
+int run(RunCommand const& command) {
+  check_usage(command);
+  log_to_stderr();
+  StopOnSignal const signals;
+  PipelineConfig config = resolved_config(command.config);
+  OpenedSource opened = open_source(command.source, config.capture, config.pose);
+  for (std::string const& warning : opened.warnings) {
+    spdlog::warn(warning);
+  }
+  auto const frame_count = static_cast<std::int64_t>(opened.frame_count);
+  ReadAhead source(std::move(opened.source), command.frames);
+  Workers workers(config.graph.threads);
+  WorldLevel const level = level_of(source, config, workers);
+  auto const prior = std::make_shared<BeliefState const>();
+
+  // Nothing is written before all that can be checked has been.
+  Dump const dump = dump_of(command);
+  std::optional<RunFolder> folder;
+  if (command.out.has_value()) {
+    folder.emplace(*command.out, dump.labels, dump.pictures, config_yaml(fields(config)));
+  }
+  Progress progress(std::min(frame_count, command.frames.value_or(frame_count)));
+  RunReport const report =
+      run_pipeline(source, make_stages(config, level, prior),
+                   run_output(folder.has_value() ? &*folder : nullptr, dump, progress),
+                   config.graph, prior, workers, signals.token());
+  progress.finish();
+  if (folder.has_value()) {
+    folder->write_metrics(report.metrics);
+  }
+  if (report.error != nullptr) {
+    std::rethrow_exception(report.error);
+  }
+  std::cout << summary_table(report.metrics);
+  return 0;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Command& chosen) {
+  auto command = std::make_shared<RunCommand>();
+  CLI::App* sub = app.add_subcommand("run", "Turn a source of RGB-D frames into a belief");
+  sub->footer(kExamples);
+  sub->add_option("--source", command->source, "dataset:DIR or sim:NAME-or-FILE")
+      ->required()
+      ->type_name("URI");
+  add_config_arguments(*sub, command->config);
+  sub->add_option("--prior", command->prior, "objects believed in before the first frame")
+      ->type_name("FILE");
+  sub->add_option("--frames", command->frames, "stop after so many frames, 1 or more")
+      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max(), "N"))
+      ->type_name("N");
+  sub->add_option("--out", command->out, "folder for the results; made if need be")
+      ->type_name("DIR");
+  sub->add_option("--dump", command->dump, "images to write for each frame: labels, pictures")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"labels", "pictures"}))
+      ->allow_extra_args(false)
+      ->type_name("WHAT,...");
+  sub->add_flag("--no-dds", command->no_dds, "publish nothing");
+  sub->add_option("--linger", command->linger_s,
+                  "stay on DDS so long after the last frame, seconds")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("S");
+  sub->callback([command, &chosen] { chosen = [command] { return run(*command); }; });
+}
+
+}  // namespace credo

@@ -1,0 +1,63 @@
+#include "run_output.hpp"
+
+#include <memory>
+#include <string>
+
+#include "io/belief_json.hpp"
+#include "io/image.hpp"
+#include "io/pictures.hpp"
+
+namespace credo {
+namespace {
+
+/// All that a frame leaves in the folder, ready to be written.
+struct Files {
+  FrameIndex frame{0};
+  EncodedPng labels;
+  EncodedPng picture;
+  std::string line;
+};
+
+Files files_of(FrameResult const& result, Dump const& dump) {
+  Files files;
+  files.frame = result.frame->index;
+  if (dump.labels) {
+    files.labels = encode_png16(result.segmentation->labels);
+  }
+  if (dump.pictures) {
+    files.picture =
+        encode_png_rgb(draw_picture(*result.frame, *result.segmentation, *result.belief));
+  }
+  files.line = belief_json(*result.belief);
+  return files;
+}
+
+void write(RunFolder& folder, Files const& files, Dump const& dump) {
+  if (dump.labels) {
+    folder.write_labels(files.frame, files.labels);
+  }
+  if (dump.pictures) {
+    folder.write_picture(files.frame, files.picture);
+  }
+  folder.write_belief(files.line);
+}
+
+}  // namespace
+
+RunSink run_output(RunFolder* folder, Dump const& dump, Progress& progress) {
+  RunSink sink;
+  sink.encode = [=, &progress](FrameResult const& result) -> Delivery {
+    if (folder == nullptr) {
+      return [&progress, result] { progress.show(result); };
+    }
+    auto const files = std::make_shared<Files const>(files_of(result, dump));
+    return [=, &progress] {
+      write(*folder, *files, dump);
+      progress.show(result);
+    };
+  };
+  sink.lost = [&progress](FrameFailure const& failure) { progress.lost(failure); };
+  return sink;
+}
+
+}  // namespace credo

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "graph/run_sink.hpp"
+#include "io/run_folder.hpp"
+#include "progress.hpp"
+
+namespace credo {
+
+/// What `--dump` asks for.
+struct Dump {
+  bool labels = false;
+  bool pictures = false;
+};
+
+/// A sink that writes into `folder` where there is one and shows `progress`; both outlive it. A
+/// frame's images are written before its line, so that whoever reads the line finds them.
+RunSink run_output(RunFolder* folder, Dump const& dump, Progress& progress);
+
+}  // namespace credo

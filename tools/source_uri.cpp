@@ -1,0 +1,41 @@
+#include "source_uri.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+#include "config/yaml_config.hpp"
+#include "core/error.hpp"
+#include "sim/scene.hpp"
+#include "sim/sim_source.hpp"
+
+namespace credo {
+namespace {
+
+OpenedSource open_sim(std::string const& name_or_file, PoseConfig const& pose) {
+  Scene scene;
+  load_config(fields(scene), {find_scene(name_or_file)}, {});
+  auto source = std::make_unique<SimSource>(scene, pose);
+  std::size_t const frame_count = source->frame_count();
+  return {std::move(source), {}, frame_count};
+}
+
+}  // namespace
+
+OpenedSource open_source(std::string const& uri, CaptureConfig const& capture,
+                         PoseConfig const& pose) {
+  std::size_t const colon = uri.find(':');
+  std::string const scheme = colon == std::string::npos ? "" : uri.substr(0, colon);
+  std::string const rest = colon == std::string::npos ? "" : uri.substr(colon + 1);
+  if (scheme == "oni" || scheme == "openni") {
+    throw InputError("--source " + uri + ": this build cannot read " + scheme +
+                     " yet; use dataset:DIR or sim:NAME");
+  }
+  if (rest.empty() || (scheme != "dataset" && scheme != "sim")) {
+    throw InputError("--source " + uri +
+                     ": names no source; write dataset:DIR or sim:NAME-or-FILE");
+  }
+  return scheme == "sim" ? open_sim(rest, pose) : open_dataset(rest, capture, pose);
+}
+
+}  // namespace credo
