@@ -13,12 +13,14 @@ demo: build      ## a simulated room in, a belief and its pictures out
 	$(BUILD)/bin/credo run --source sim:first-light --out $(OUT) --dump labels,pictures
 	@echo "Look at $(OUT)/pictures/ and $(OUT)/belief.jsonl"
 
-test: build      ## build and run every test
+test: deps       ## build and run every test
+	cmake --preset $(PRESET) --log-level=WARNING
+	cmake --build --preset $(PRESET)
 	ctest --test-dir $(BUILD) --output-on-failure -j2
 
 build: deps      ## build/bin/credo
 	cmake --preset $(PRESET) --log-level=WARNING
-	cmake --build --preset $(PRESET)
+	cmake --build --preset $(PRESET) --target credo
 
 deps:            ## install what packages.txt lists and this machine lacks
 	@missing=$$(grep -v '^#' packages.txt | while read -r p; do \

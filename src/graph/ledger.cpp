@@ -124,9 +124,9 @@ RunReport Ledger::close(bool wanted_frames) {
     error_ = std::make_exception_ptr(InputError(
         metrics_.frames_in == 0 ? "the source has no frames"
         : metrics_.failed == 0  ? "not one of " + std::to_string(metrics_.frames_in) +
-                                    " frames came through: all were dropped"
-                              : "not one good frame: of " + std::to_string(metrics_.frames_in) +
-                                    ", the first to fail was " + described(first_failure_)));
+                                     " frames came through: all were dropped"
+                               : "not one good frame: of " + std::to_string(metrics_.frames_in) +
+                                     ", the first to fail was " + described(first_failure_)));
   }
   metrics_.latency = latency_.quantiles();
   return {std::move(metrics_), error_};

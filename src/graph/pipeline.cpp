@@ -64,8 +64,8 @@ public:
 
   void fusion(Job& job) {
     guarded("fusion", job, [&] {
-      job.belief = std::make_shared<BeliefState const>(
-          stages_.fusion(*trail_.newest(), job.segmentation));
+      job.belief =
+          std::make_shared<BeliefState const>(stages_.fusion(*trail_.newest(), job.segmentation));
     });
     trail_.count_lost_until(FrameIndex{number(job.index) - 1});
     trail_.count(job.index, job.belief != nullptr ? job.belief : trail_.newest());
@@ -207,8 +207,8 @@ RunReport run_pipeline(FrameSource& source, Stages const& stages, RunSink const&
         &pipeline.planes_clustering, &pipeline.clustering_fusion, &pipeline.fusion_encoding,
         &pipeline.encoding_sink}) {
     QueueStats const stats = edge->queue.stats();
-    report.metrics.queues.emplace_back(
-        edge->name, QueueMetrics{stats.capacity, stats.peak, stats.dropped});
+    report.metrics.queues.emplace_back(edge->name,
+                                       QueueMetrics{stats.capacity, stats.peak, stats.dropped});
   }
   return report;
 }

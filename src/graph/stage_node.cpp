@@ -8,10 +8,10 @@ namespace credo {
 
 Edge::Edge(std::string edge_name, EdgeConfig const& config)
     : name(std::move(edge_name)),
-      queue(static_cast<std::size_t>(config.capacity), config.overflow,
-            [this](JobPtr dropped, JobPtr& next) {
-              inherit_lost(std::move(dropped), *next, name);
-            }) {}
+      queue(
+          static_cast<std::size_t>(config.capacity), config.overflow,
+          [this](JobPtr dropped, JobPtr& next) { inherit_lost(std::move(dropped), *next, name); }) {
+}
 
 void Edge::push(JobPtr job) {
   queue.push(std::move(job));

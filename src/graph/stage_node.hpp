@@ -46,8 +46,9 @@ public:
   /// `work` must not throw. A job waits at the head of the queue until `ready`; whatever makes it
   /// ready then calls `wake`. `out` is none for the last stage. Edges and graph outlive the node's
   /// last message.
-  StageNode(tbb::flow::graph& graph, std::string name, std::size_t concurrency, Edge& in, Edge* out,
-            Work work, Ready ready = [](Job const&) { return true; });
+  StageNode(
+      tbb::flow::graph& graph, std::string name, std::size_t concurrency, Edge& in, Edge* out,
+      Work work, Ready ready = [](Job const&) { return true; });
   StageNode(StageNode const&) = delete;
   StageNode& operator=(StageNode const&) = delete;
   StageNode(StageNode&&) = delete;

@@ -105,7 +105,8 @@ Grid<Rgb> read_png_rgb(Bytes const& bytes, std::filesystem::path const& path) {
   return image;
 }
 
-/// A cut JPEG is only a warning to the decoder, which fills the rest with grey: here it is an error.
+/// A cut JPEG is only a warning to the decoder, which fills the rest with grey: here it is an
+/// error.
 [[noreturn]] void fail_jpeg(tjhandle handle, std::filesystem::path const& path) {
   std::string const text = tjGetErrorStr2(handle);
   // The decoder says the second where the file ends within its header.

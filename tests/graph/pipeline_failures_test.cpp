@@ -167,8 +167,7 @@ TEST(PipelineFailures, ASourceThatLeavesOutAFrameHasBrokenItsContract) {
   Recorder recorder;
   RunReport const report = run(source, test::fake_stages(), recorder.sink(), GraphConfig{});
   EXPECT_EQ(report.metrics.frames_out, 3U);
-  EXPECT_EQ(test::error_text<std::logic_error>(report),
-            "the source gave frame 4 where 3 was due");
+  EXPECT_EQ(test::error_text<std::logic_error>(report), "the source gave frame 4 where 3 was due");
 }
 
 TEST(PipelineFailures, ADeliveryThatThrowsEndsTheRunThere) {
@@ -177,26 +176,26 @@ TEST(PipelineFailures, ADeliveryThatThrowsEndsTheRunThere) {
     config.threads = 3;
     Recorder recorder;
     RunSink const plain = recorder.sink();
-    RunSink const full_disk = {
-        [&](FrameResult const& result) -> Delivery {
-          bool const full = number(result.frame->index) == 12;
-          if (full && while_encoding) {
-            throw InputError("disk full");
-          }
-          return [deliver = plain.encode(result), full] {
-            if (full) {
-              throw InputError("disk full");
-            }
-            deliver();
-          };
-        },
-        plain.lost};
+    RunSink const full_disk = {[&](FrameResult const& result) -> Delivery {
+                                 bool const full = number(result.frame->index) == 12;
+                                 if (full && while_encoding) {
+                                   throw InputError("disk full");
+                                 }
+                                 return [deliver = plain.encode(result), full] {
+                                   if (full) {
+                                     throw InputError("disk full");
+                                   }
+                                   deliver();
+                                 };
+                               },
+                               plain.lost};
     FakeSource source(1000);
     RunReport const report = run(source, test::fake_stages(50), full_disk, config);
     EXPECT_EQ(recorder.indices(), test::first(12));
     EXPECT_EQ(report.metrics.frames_out, 12U);
     EXPECT_THAT(report.metrics.failures, ElementsAre(Pair("sink", 1U)));
-    EXPECT_EQ(report.metrics.frames_in, report.metrics.frames_out + report.metrics.failed + test::total_dropped(report));
+    EXPECT_EQ(report.metrics.frames_in,
+              report.metrics.frames_out + report.metrics.failed + test::total_dropped(report));
     EXPECT_LT(source.given(), 200);
     EXPECT_EQ(test::error_text<InputError>(report), "disk full");
   }
@@ -232,7 +231,8 @@ TEST(PipelineFailures, DroppedFramesAreCountedInTheirPlaces) {
       EXPECT_EQ(recorder.indices(), test::first(150)) << one.name;
       EXPECT_EQ(report.metrics.failed, 15U);
       EXPECT_EQ(report.metrics.frames_in, 150U);
-      EXPECT_EQ(report.metrics.frames_out + report.metrics.failed + test::total_dropped(report), 150U);
+      EXPECT_EQ(report.metrics.frames_out + report.metrics.failed + test::total_dropped(report),
+                150U);
       if (one.name == "capture_normals") {
         EXPECT_GT(report.metrics.dropped.at("capture_normals_full"), 0U);
       }

@@ -39,8 +39,8 @@ std::unique_ptr<Ran> run(std::int64_t frames, GraphConfig const& config,
 std::unique_ptr<Ran> specified(std::int64_t frames, GraphConfig const& config) {
   auto ran = std::make_unique<Ran>();
   FakeSource source(frames);
-  ran->report = run_once(source, test::fake_stages(), ran->recorder.sink(), config,
-                         test::empty_prior(), {});
+  ran->report =
+      run_once(source, test::fake_stages(), ran->recorder.sink(), config, test::empty_prior(), {});
   return ran;
 }
 
@@ -201,9 +201,9 @@ TEST(Pipeline, AStopFinishesWhatWasAdmittedAndIsNoError) {
     });
     Recorder recorder;
     Workers workers(threads);
-    RunReport const report = run_pipeline(source, test::fake_stages(100), recorder.sink(),
-                                          GraphConfig{}, test::empty_prior(), workers,
-                                          stop.get_token());
+    RunReport const report =
+        run_pipeline(source, test::fake_stages(100), recorder.sink(), GraphConfig{},
+                     test::empty_prior(), workers, stop.get_token());
     EXPECT_EQ(recorder.indices(), test::first(38));
     EXPECT_EQ(report.metrics.frames_out, 38U);
     EXPECT_EQ(report.error, nullptr);

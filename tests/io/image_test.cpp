@@ -56,9 +56,9 @@ std::string png_of(int width, int height, std::uint8_t bits, std::uint8_t color_
   if (color_type == SPNG_COLOR_TYPE_INDEXED) {
     spng_set_plte(context, &palette);
   }
-  EXPECT_EQ(spng_encode_image(context, pixels.data(), pixels.size(), SPNG_FMT_PNG,
-                              SPNG_ENCODE_FINALIZE),
-            0);
+  EXPECT_EQ(
+      spng_encode_image(context, pixels.data(), pixels.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE),
+      0);
   std::size_t size = 0;
   int error = 0;
   void* png = spng_get_png_buffer(context, &size, &error);
@@ -72,9 +72,8 @@ std::string jpeg_of(Grid<Rgb> const& image) {
   tjhandle const handle = tjInitCompress();
   unsigned char* bytes = nullptr;
   unsigned long size = 0;  // NOLINT(google-runtime-int): the type of the library
-  EXPECT_EQ(tjCompress2(handle, reinterpret_cast<unsigned char const*>(image.data()),
-                        image.width(), 0, image.height(), TJPF_RGB, &bytes, &size, TJSAMP_444, 95,
-                        0),
+  EXPECT_EQ(tjCompress2(handle, reinterpret_cast<unsigned char const*>(image.data()), image.width(),
+                        0, image.height(), TJPF_RGB, &bytes, &size, TJSAMP_444, 95, 0),
             0);
   std::string const text(reinterpret_cast<char const*>(bytes), size);
   tjFree(bytes);

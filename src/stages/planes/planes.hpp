@@ -14,19 +14,19 @@ namespace credo {
 /// with the sensor's noise and the points' normals left out of account, as the thesis does.
 struct PlanesConfig {
   /// A point belongs to a plane within this distance (T: 0.05) ...
-  double inlier_distance_m = 0.05;
+  double inlier_distance_m = 0.015;
   /// ... or within this many standard deviations of a Kinect's axial noise, if that is more
   /// (0.0012 + 0.0019 (z - 0.4)^2 m: Nguyen et al. 2012); 0 leaves noise out.
-  double noise_sigmas = 0.0;
+  double noise_sigmas = 4.0;
   /// A point with a normal belongs to a plane only within this angle; pi/2 or more switches it off.
-  double max_angle_rad = 3.15;
+  double max_angle_rad = 0.35;
   /// Planes with fewer inliers end the search (T: 150).
-  int min_plane_pixels = 150;
-  int max_planes = 200;
-  PlaneSampling sampling = PlaneSampling::kThreePoints;
+  int min_plane_pixels = 1500;
+  int max_planes = 16;
+  PlaneSampling sampling = PlaneSampling::kPointAndNormal;
   double confidence = 0.99;
   int max_hypotheses = 100;
-  int scoring_points = 4096;
+  int scoring_points = 2048;
   int seed = 1;
   /// Floor: horizontal components of the normal at most this (T: 0.5), the vertical one at least
   /// one minus the other (T: 0.1), mean |z| of the inliers at most the third (T: 0.1).
@@ -40,10 +40,10 @@ struct PlanesConfig {
   /// ... and at most so many points beyond it (T: 50), or so large a share of the plane's own
   /// pixels.
   int wall_max_points_beyond = 50;
-  double wall_max_share_beyond = 0.0;
+  double wall_max_share_beyond = 0.03;
   /// Walls with fewer pixels, or lower from their foot to their top, stay in the cloud.
-  int wall_min_pixels = 0;
-  double wall_min_extent_m = 0.0;
+  int wall_min_pixels = 4000;
+  double wall_min_extent_m = 0.4;
   /// Spacing of the points that are handed to the belief.
   double point_spacing_m = 0.05;
 };

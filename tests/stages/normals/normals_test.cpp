@@ -76,7 +76,8 @@ TEST(Normals, AreTheSameToTheBitOnEveryInstructionSet) {
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     EXPECT_EQ(bits_of(normals_of(depth_m)), best) << hwy::TargetName(target);
-    ++compared; printf("%s\n", hwy::TargetName(target));
+    ++compared;
+    printf("%s\n", hwy::TargetName(target));
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
