@@ -3,9 +3,14 @@ BUILD  := build
 PRESET ?= release
 OUT    := out/demo
 SUDO   := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
+# Whatever reads what others wrote, and whatever shares memory between threads.
+SANITIZED := $(patsubst %,credo_%_test,core config dataset intrinsics trajectory pcd image output sim \
+               graph)
+# Empty: all of .clang-tidy. CI, which has minutes, narrows it.
+TIDY_CHECKS ?=
 SOURCES = $(shell git ls-files '*.cpp' '*.hpp')
 
-.PHONY: demo test build deps bench lint format help
+.PHONY: demo test build deps bench docs lint sanitize format help
 help:            ## what there is
 	@grep -E '^[a-z]+: .*## ' Makefile | sed -E 's/:.*## /\t/'
 
@@ -34,10 +39,19 @@ bench: deps      ## ours beside PCL's, on the same frames in the same run
 	cmake --build --preset bench
 	@for b in $(BUILD)/bin/*_bench; do $$b || exit 1; done
 
+docs: build      ## config/default.yaml and docs/config.md, as the program prints them
+	$(BUILD)/bin/credo config > config/default.yaml
+	$(BUILD)/bin/credo config --markdown > docs/config.md
+
 lint: deps       ## clang-format and clang-tidy, findings are errors
 	clang-format --dry-run --Werror $(SOURCES)
 	cmake --preset $(PRESET) --log-level=WARNING
-	run-clang-tidy -quiet -p $(BUILD) '/(src|tools)/.*\.cpp$$'
+	run-clang-tidy -quiet -j2 -checks='$(TIDY_CHECKS)' -p $(BUILD) '/(src|tools)/.*\.cpp$$'
+
+sanitize: deps   ## the suites where memory is at stake, under ASan and UBSan
+	cmake --preset sanitize --log-level=WARNING
+	cmake --build --preset sanitize --target $(SANITIZED)
+	ctest --preset sanitize -j2 -E NOT_BUILT
 
 format:          ## clang-format in place
 	clang-format -i $(SOURCES)

@@ -1,7 +1,10 @@
+#include <malloc.h>
+
 #include <exception>
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "core/error.hpp"
@@ -42,15 +45,32 @@ int run_command_line(int argc, char** argv) {
   } catch (CLI::Success const& help) {
     return app.exit(help);
   } catch (CLI::ParseError const& error) {
-    print_error(std::string(error.what()) + "; see credo --help");
+    // What was not understood says more than what is missing because of it.
+    std::vector<std::string> const unknown = app.remaining(true);
+    print_error((unknown.empty() ? error.what() : unknown.front() + ": no such command or option") +
+                "; see credo --help");
     return kBadInput;
   }
-  return chosen();
+  int const code = chosen();
+  // A full disk behind a redirection shows only here.
+  if (!std::cout.flush()) {
+    throw credo::InputError("standard output cannot be written: is the disk full?");
+  }
+  return code;
+}
+
+/// Frames come and go in the same sizes: what is given back to the kernel after each one must be
+/// faulted in again for the next, page by page.
+void keep_freed_memory() {
+  constexpr int kNever = 1 << 30;
+  mallopt(M_MMAP_THRESHOLD, kNever);
+  mallopt(M_TRIM_THRESHOLD, kNever);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   try {
     return run_command_line(argc, argv);
   } catch (credo::InputError const& error) {

@@ -1,12 +1,13 @@
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,6 +47,17 @@ struct RunCommand {
   double linger_s = 0.0;
 };
 
+CLI::Validator at_least(double least) {
+  return {[least](std::string const& text) {
+            char* end = nullptr;
+            double const value = std::strtod(text.c_str(), &end);
+            return *end == '\0' && value >= least
+                       ? std::string()
+                       : text + ": must be " + fmt::format("{}", least) + " or more";
+          },
+          ""};
+}
+
 Dump dump_of(RunCommand const& command) {
   auto const wants = [&](char const* what) {
     return std::find(command.dump.begin(), command.dump.end(), what) != command.dump.end();
@@ -71,12 +83,16 @@ void log_to_stderr() {
 
 WorldLevel level_of(ReadAhead& source, PipelineConfig const& config, Workers& workers) {
   if (config.capture.independent_frames) {
-    spdlog::info("each frame is a scene of its own, levelled by itself");
-    return {};
+    return {Se3{}, true, "each frame is a scene of its own, levelled by itself"};
   }
-  WorldLevel level = workers.execute([&] { return find_level_ahead(source, config.pose); });
+  return workers.execute([&] { return find_level_ahead(source, config.pose); });
+}
+
+void log_start(std::vector<std::string> const& warnings, WorldLevel const& level) {
+  for (std::string const& warning : warnings) {
+    spdlog::warn(warning);
+  }
   spdlog::log(level.floor_found ? spdlog::level::info : spdlog::level::warn, level.note);
-  return level;
 }
 
 int run(RunCommand const& command) {
@@ -85,21 +101,19 @@ int run(RunCommand const& command) {
   StopOnSignal const signals;
   PipelineConfig config = resolved_config(command.config);
   OpenedSource opened = open_source(command.source, config.capture, config.pose);
-  for (std::string const& warning : opened.warnings) {
-    spdlog::warn(warning);
-  }
   auto const frame_count = static_cast<std::int64_t>(opened.frame_count);
   ReadAhead source(std::move(opened.source), command.frames);
   Workers workers(config.graph.threads);
   WorldLevel const level = level_of(source, config, workers);
   auto const prior = std::make_shared<BeliefState const>();
 
-  // Nothing is written before all that can be checked has been.
+  // Nothing is written before all that can be checked has been, and bad input is told in one line.
   Dump const dump = dump_of(command);
   std::optional<RunFolder> folder;
   if (command.out.has_value()) {
     folder.emplace(*command.out, dump.labels, dump.pictures, config_yaml(fields(config)));
   }
+  log_start(opened.warnings, level);
   Progress progress(std::min(frame_count, command.frames.value_or(frame_count)));
   RunReport const report =
       run_pipeline(source, make_stages(config, level, prior),
@@ -129,19 +143,19 @@ void add_run_command(CLI::App& app, Command& chosen) {
   sub->add_option("--prior", command->prior, "objects believed in before the first frame")
       ->type_name("FILE");
   sub->add_option("--frames", command->frames, "stop after so many frames, 1 or more")
-      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max(), "N"))
+      ->check(at_least(1))
       ->type_name("N");
   sub->add_option("--out", command->out, "folder for the results; made if need be")
       ->type_name("DIR");
   sub->add_option("--dump", command->dump, "images to write for each frame: labels, pictures")
       ->delimiter(',')
-      ->check(CLI::IsMember({"labels", "pictures"}))
+      ->check(CLI::IsMember({"labels", "pictures"}).description(""))
       ->allow_extra_args(false)
       ->type_name("WHAT,...");
   sub->add_flag("--no-dds", command->no_dds, "publish nothing");
   sub->add_option("--linger", command->linger_s,
                   "stay on DDS so long after the last frame, seconds")
-      ->check(CLI::NonNegativeNumber)
+      ->check(at_least(0))
       ->type_name("S");
   sub->callback([command, &chosen] { chosen = [command] { return run(*command); }; });
 }

@@ -14,6 +14,7 @@ namespace {
 
 OpenedSource open_sim(std::string const& name_or_file, PoseConfig const& pose) {
   Scene scene;
+  scene.name = name_or_file;
   load_config(fields(scene), {find_scene(name_or_file)}, {});
   auto source = std::make_unique<SimSource>(scene, pose);
   std::size_t const frame_count = source->frame_count();

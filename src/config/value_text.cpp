@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 namespace credo {
 namespace {
@@ -14,13 +15,26 @@ namespace {
 template <typename T>
 std::string shortest(T value) {
   std::array<char, 64> text{};
-  auto const end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
+  char* const begin = text.data();
+  char* end = begin + text.size();
+  T const size = std::abs(value);
+  // 100000 rather than 1e+05: people read these.
+  bool const plain = size >= T(1e-5) && size < T(1e9);
+  end = plain ? std::to_chars(begin, end, value, std::chars_format::fixed).ptr
+              : std::to_chars(begin, end, value).ptr;
+  return {begin, end};
 }
 
 std::string quoted(std::string const& text) {
+  constexpr char const* kHex = "0123456789abcdef";
   std::string result = "\"";
   for (char const c : text) {
+    auto const code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7f) {
+      // YAML folds line breaks inside quotes; escaped, they stay.
+      result += {'\\', 'x', kHex[code >> 4U], kHex[code & 15U]};
+      continue;
+    }
     if (c == '"' || c == '\\') {
       result += '\\';
     }
@@ -34,7 +48,8 @@ std::optional<T> parse(std::string const& text) {
   T value{};
   char const* begin = text.data();
   char const* end = begin + text.size();
-  if (begin != end && *begin == '+') {
+  // from_chars knows no plus sign; "+-5" is no number for all that.
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') {
     ++begin;
   }
   auto const result = std::from_chars(begin, end, value);
@@ -50,38 +65,40 @@ bool has_leading_zero(std::string const& text) {
          std::isdigit(static_cast<unsigned char>(text[first + 1])) != 0;
 }
 
-std::string words_text(std::vector<std::string> const& words) {
-  std::string text;
-  for (std::string const& word : words) {
-    text += (text.empty() ? "" : ", ") + word;
+std::string set_number(Field const& field, int* target, std::string const& text) {
+  if (has_leading_zero(text)) {
+    return "must be a whole number without leading zeros";
   }
-  return text;
+  std::optional<std::int64_t> const value = parse<std::int64_t>(text);
+  if (!value) {
+    return "must be a whole number";
+  }
+  std::string error = check_range(field, static_cast<double>(*value));
+  if (error.empty() && !std::in_range<int>(*value)) {
+    error = "must be a whole number of at most 32 bits";
+  }
+  if (error.empty()) {
+    *target = static_cast<int>(*value);
+  }
+  return error;
 }
 
 template <typename T>
 std::string set_number(Field const& field, T* target, std::string const& text) {
-  if constexpr (std::is_integral_v<T>) {
-    std::optional<std::int64_t> const value = parse<std::int64_t>(text);
-    if (!value || has_leading_zero(text)) {
-      return "must be a whole number";
-    }
-    std::string const error = check_range(field, static_cast<double>(*value));
-    if (error.empty()) {
-      *target = static_cast<T>(*value);
-    }
-    return error;
-  } else {
-    std::optional<T> const value = parse<T>(text);
-    if (!value || !std::isfinite(*value) ||
-        (has_leading_zero(text) && text.find('.') == std::string::npos)) {
-      return "must be a number";
-    }
-    std::string const error = check_range(field, static_cast<double>(*value));
-    if (error.empty()) {
-      *target = *value;
-    }
-    return error;
+  if (has_leading_zero(text)) {
+    return "must be a number without leading zeros";
   }
+  // The range is checked before rounding: 0.1F lies above 0.1.
+  std::optional<double> const written = parse<double>(text);
+  std::optional<T> const value = parse<T>(text);
+  if (!written || !value) {
+    return "must be a number";
+  }
+  std::string error = check_range(field, *written);
+  if (error.empty()) {
+    *target = *value;
+  }
+  return error;
 }
 
 std::string set_bool(bool* target, std::string const& text) {
@@ -99,7 +116,7 @@ std::string set_choice(ChoiceTarget const& target, std::string const& text) {
       return {};
     }
   }
-  return "must be one of " + words_text(target.words);
+  return "must be one of " + words_text(target);
 }
 
 }  // namespace
@@ -109,6 +126,14 @@ std::string number_text(double value) {
 }
 std::string number_text(float value) {
   return shortest(value);
+}
+
+std::string words_text(ChoiceTarget const& choice) {
+  std::string text;
+  for (std::string const& word : choice.words) {
+    text += (text.empty() ? "" : ", ") + word;
+  }
+  return text;
 }
 
 std::string range_text(Range const& range) {

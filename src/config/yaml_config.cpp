@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -40,6 +41,16 @@ std::string suggestion(std::string const& key, FieldList const& fields) {
     }
   }
   return best.empty() ? "" : " (did you mean " + best + "?)";
+}
+
+/// "3", "1 to 5" or "at least 2".
+std::string count_text(NumbersTarget const& target) {
+  std::string least = std::to_string(target.min_count);
+  if (target.min_count == target.max_count) {
+    return least;
+  }
+  bool const bounded = target.max_count != std::numeric_limits<std::size_t>::max();
+  return bounded ? least + " to " + std::to_string(target.max_count) : "at least " + least;
 }
 
 /// Walks a YAML tree beside a field list and collects what does not fit.
@@ -121,10 +132,7 @@ private:
       numbers.push_back(number);
     }
     if (!sound || numbers.size() < target.min_count || numbers.size() > target.max_count) {
-      std::string const count = target.min_count == target.max_count
-                                    ? std::to_string(target.min_count)
-                                    : "at least " + std::to_string(target.min_count);
-      add(key, path + ": must be a list of " + count + " numbers");
+      add(key, path + ": must be a list of " + count_text(target) + " numbers");
       return;
     }
     *target.values = std::move(numbers);
@@ -148,9 +156,21 @@ void append(std::vector<std::string>& all, std::vector<std::string> more) {
 }
 
 std::vector<std::string> load_file(FieldList const& fields, std::filesystem::path const& path) {
+  // Opened as a stream, a folder reads like an empty file.
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    return {path.string() + ": is a folder, not a config file"};
+  }
   try {
+    std::vector<YAML::Node> const documents = YAML::LoadAllFromFile(path.string());
+    if (documents.size() > 1) {
+      return {path.string() + ": must be one YAML document, not " +
+              std::to_string(documents.size())};
+    }
     Loader loader(path.string(), true);
-    loader.apply(fields, YAML::LoadFile(path.string()), "");
+    if (!documents.empty()) {
+      loader.apply(fields, documents.front(), "");
+    }
     return std::move(loader.errors);
   } catch (YAML::BadFile const&) {
     return {path.string() + ": config file cannot be read"};
@@ -162,7 +182,9 @@ std::vector<std::string> load_file(FieldList const& fields, std::filesystem::pat
 
 std::vector<std::string> load_override(FieldList const& fields, std::string const& text) {
   std::size_t const equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) {
+  // Dots stand between keys only.
+  std::string const between = "." + text.substr(0, equals) + ".";
+  if (equals == std::string::npos || between.find("..") != std::string::npos) {
     return {"--set " + text + ": must be key.path=value"};
   }
   try {
@@ -191,11 +213,7 @@ std::string comment_of(Field const& field) {
     comment += " (" + range + (range.empty() || field.unit.empty() ? "" : " ") + field.unit + ")";
   }
   if (auto const* choice = std::get_if<ChoiceTarget>(&field.target)) {
-    std::string words;
-    for (std::string const& word : choice->words) {
-      words += (words.empty() ? "" : " | ") + word;
-    }
-    comment += " (" + words + ")";
+    comment += " (" + words_text(*choice) + ")";
   }
   return comment;
 }
@@ -219,15 +237,37 @@ void print_yaml(FieldList const& fields, std::string const& indent, std::string&
   }
 }
 
-void print_markdown(FieldList const& fields, std::string const& prefix, std::string& out) {
+/// What a value may be: the range of a number, the words of a choice.
+std::string allowed_text(Field const& field) {
+  auto const* choice = std::get_if<ChoiceTarget>(&field.target);
+  return choice != nullptr ? words_text(*choice) : range_text(field.range);
+}
+
+/// A bar would end a table's cell.
+std::string cell(std::string const& text) {
+  std::string result;
+  for (char const c : text) {
+    result += c == '|' ? "\\|" : std::string(1, c);
+  }
+  return result;
+}
+
+void print_rows(FieldList const& fields, std::string const& prefix, std::string& out) {
   for (Field const& field : fields) {
     if (auto const* members = std::get_if<FieldList>(&field.target)) {
-      print_markdown(*members, prefix + field.name + ".", out);
+      print_rows(*members, prefix + field.name + ".", out);
     } else if (!std::holds_alternative<ListTarget>(field.target)) {
-      out += "| `" + prefix + field.name + "` | `" + value_text(field) + "` | " + field.unit +
-             " | " + range_text(field.range) + " | " + field.text + " |\n";
+      out += "| `" + prefix + field.name + "` | `" + cell(value_text(field)) + "` | " + field.unit +
+             " | " + allowed_text(field) + " | " + cell(field.text) + " |\n";
     }
   }
+}
+
+std::string table_of(FieldList const& fields, std::string const& prefix) {
+  std::string rows;
+  print_rows(fields, prefix, rows);
+  return rows.empty() ? ""
+                      : "| key | default | unit | allowed | what |\n|---|---|---|---|---|\n" + rows;
 }
 
 }  // namespace
@@ -257,9 +297,17 @@ std::string config_yaml(FieldList const& fields) {
 }
 
 std::string config_markdown(FieldList const& fields) {
-  std::string out = "| key | default | unit | range | what |\n|---|---|---|---|---|\n";
-  print_markdown(fields, "", out);
-  return out;
+  FieldList alone;
+  std::string out;
+  for (Field const& field : fields) {
+    if (auto const* members = std::get_if<FieldList>(&field.target)) {
+      out += "\n## " + field.name + "\n\n" + field.text + "\n\n" +
+             table_of(*members, field.name + ".");
+    } else {
+      alone.push_back(field);
+    }
+  }
+  return table_of(alone, "") + out;
 }
 
 }  // namespace credo

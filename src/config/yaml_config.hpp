@@ -19,7 +19,8 @@ void load_config(FieldList const& fields, std::vector<std::filesystem::path> con
 /// the same values, to the bit.
 std::string config_yaml(FieldList const& fields);
 
-/// The same as a Markdown table: key, value, unit, range, text.
+/// The same as Markdown: a heading and a table (key, value, unit, allowed values, text) for each
+/// section; what is in no section comes first. Lists of structs are left out.
 std::string config_markdown(FieldList const& fields);
 
 }  // namespace credo

@@ -78,6 +78,7 @@ Field list_of(std::string name, std::vector<T>& values, std::string text) {
       [&values] { return fields(values.emplace_back()); },
       [&values] {
         std::vector<FieldList> lists;
+        lists.reserve(values.size());
         for (T& value : values) {
           lists.push_back(fields(value));
         }

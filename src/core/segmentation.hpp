@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "core/detection.hpp"
 #include "core/frame.hpp"
+#include "core/grid.hpp"
 #include "core/label.hpp"
 #include "core/plane.hpp"
 
@@ -69,6 +71,9 @@ struct Segmentation {
   /// False where no floor was found to level by: z = 0 then means nothing, and nothing is floor.
   bool floor_at_zero = true;
   LabelMap labels;
+  /// Large planes that are neither floor nor wall, such as a table top, numbered from 1; 0
+  /// elsewhere. Stuff does not join across their borders. Empty where no plane is told apart.
+  Grid<std::uint8_t> surfaces;
   std::optional<FloorObservation> floor;
   std::vector<WallObservation> walls;
   std::vector<ObjectObservation> objects;

@@ -133,14 +133,24 @@ Se3 least_squares_motion(PaddedPoints const& source, PaddedPoints const& target,
   auto const count = static_cast<double>(source.count);
   Eigen::Vector3d const source_mean = source_sum / count;
   Eigen::Vector3d const target_mean = target_sum / count;
-  Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
-  double spread_m2 = 0.0;
+  // Sums of products, s(i, j) over a_i b_j. Scalars: with Eigen's vectors of three g++ stores
+  // halves and loads wholes, and the processor waits for each.
+  std::array<double, 9> sums{};
+  double source_spread_m2 = 0.0;
+  double target_spread_m2 = 0.0;
   for (std::size_t i = 0; i < source.count; ++i) {
     Eigen::Vector3d const a = source.at(i) - source_mean;
     Eigen::Vector3d const b = paired(i) - target_mean;
-    s += a * b.transpose();
-    spread_m2 += a.norm() * b.norm();
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      sums[k] += a[static_cast<Eigen::Index>(k / 3)] * b[static_cast<Eigen::Index>(k % 3)];
+    }
+    source_spread_m2 += a.squaredNorm();
+    target_spread_m2 += b.squaredNorm();
   }
+  Eigen::Matrix3d const s =
+      Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor> const>(sums.data());
+  // No entry of s is larger (Cauchy and Schwarz).
+  double const spread_m2 = std::sqrt(source_spread_m2 * target_spread_m2);
   if (!(spread_m2 > 0.0)) {
     return {Eigen::Quaterniond::Identity(), target_mean - source_mean};
   }

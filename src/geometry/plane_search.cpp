@@ -24,16 +24,17 @@ struct FloatPlane {
                                              : -1.0F) {}
 };
 
-/// 1 where the point belongs to the plane. A NaN normal fails no comparison, so it passes.
-inline std::uint8_t belongs(FloatPlane const& plane, PlaneSearchPoints const& points,
+/// 1 where the point belongs to the plane, else 0. A NaN normal fails no comparison, so it passes.
+/// All in 32 bits, so that loops vectorise.
+inline std::int32_t belongs(FloatPlane const& plane, PlaneSearchPoints const& points,
                             std::size_t i) {
   float const distance = plane.normal_x * points.x[i] + plane.normal_y * points.y[i] +
                          plane.normal_z * points.z[i] - plane.offset_m;
   float const cosine = plane.normal_x * points.normal_x[i] + plane.normal_y * points.normal_y[i] +
                        plane.normal_z * points.normal_z[i];
-  auto const near = static_cast<std::uint8_t>(std::fabs(distance) <= points.tolerance_m[i]);
-  auto const turned = static_cast<std::uint8_t>(std::fabs(cosine) < plane.min_cosine);
-  return static_cast<std::uint8_t>(near & (turned ^ 1U));
+  std::int32_t const near = std::fabs(distance) <= points.tolerance_m[i] ? 1 : 0;
+  std::int32_t const turned = std::fabs(cosine) < plane.min_cosine ? 1 : 0;
+  return near & (turned ^ 1);
 }
 
 /// At most `count` points, evenly spread over the list.
@@ -53,11 +54,11 @@ PlaneSearchPoints spread_subset(PlaneSearchPoints const& points, std::size_t cou
 std::size_t count_inliers(Plane const& plane, PlaneSearchPoints const& points,
                           double max_angle_rad) {
   FloatPlane const p(plane, max_angle_rad);
-  std::uint32_t count = 0;
+  std::int32_t count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     count += belongs(p, points, i);
   }
-  return count;
+  return static_cast<std::size_t>(count);
 }
 
 Eigen::Vector3d point_at(PlaneSearchPoints const& points, std::size_t i) {
@@ -141,13 +142,13 @@ void PlaneSearchPoints::remove(std::span<std::uint8_t const> removed) {
 FoundPlane inliers_of(Plane const& plane, PlaneSearchPoints const& points, double max_angle_rad) {
   FloatPlane const p(plane, max_angle_rad);
   FoundPlane found{plane, std::vector<std::uint8_t>(points.size()), 0};
-  std::uint32_t count = 0;
+  std::int32_t count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    std::uint8_t const inlier = belongs(p, points, i);
-    found.inliers[i] = inlier;
+    std::int32_t const inlier = belongs(p, points, i);
+    found.inliers[i] = static_cast<std::uint8_t>(inlier);
     count += inlier;
   }
-  found.inlier_count = count;
+  found.inlier_count = static_cast<std::size_t>(count);
   return found;
 }
 
@@ -214,7 +215,10 @@ std::optional<FoundPlane> find_largest_plane(PlaneSearchPoints const& points,
   if (!best) {
     return std::nullopt;
   }
-  // Least squares on the inliers moves the plane, which moves its inliers: two rounds settle it.
+  // Least squares on the inliers moves the plane, which moves its inliers: two rounds settle it. A
+  // few inliers less are no reason to prefer the draw, which is as good as its three points; many
+  // less are: the fit then follows something else.
+  constexpr double kStillTheSame = 0.95;
   FoundPlane found = inliers_of(*best, points, limits.max_angle_rad);
   for (int round = 0; round < 2; ++round) {
     std::optional<Plane> const refined = fit_plane(points, found.inliers, found.plane.normal);
@@ -222,7 +226,8 @@ std::optional<FoundPlane> find_largest_plane(PlaneSearchPoints const& points,
       break;
     }
     FoundPlane better = inliers_of(*refined, points, limits.max_angle_rad);
-    if (better.inlier_count < found.inlier_count) {
+    if (static_cast<double>(better.inlier_count) <
+        kStillTheSame * static_cast<double>(found.inlier_count)) {
       break;
     }
     found = std::move(better);

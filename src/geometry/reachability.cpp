@@ -46,17 +46,17 @@ Vectors with_width(Vectors const& grid, int width) {
 }
 
 // Numbers the components by their first runs, which come in raster order.
-Grid<std::int32_t> paint(std::vector<Run> const& runs, DisjointSets& sets, int width, int height) {
-  Grid<std::int32_t> components(width, height, kNoComponent);
-  std::vector<std::int32_t> number(runs.size());
+std::vector<ComponentRun> numbered(std::vector<Run> const& runs, DisjointSets& sets) {
+  std::vector<ComponentRun> result(runs.size());
   std::int32_t count = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     auto const root = static_cast<std::size_t>(sets.root(static_cast<std::int32_t>(i)));
-    number[i] = root == i ? count++ : number[root];
-    std::fill_n(components.row(runs[i].v).begin() + runs[i].begin, runs[i].end - runs[i].begin,
-                number[i]);
+    result[i] = {.v = runs[i].v,
+                 .begin = runs[i].begin,
+                 .end = runs[i].end,
+                 .component = root == i ? count++ : result[root].component};
   }
-  return components;
+  return result;
 }
 
 }  // namespace
@@ -74,9 +74,9 @@ ReachThresholds::ReachThresholds(ReachabilityLimits const& limits)
   }
 }
 
-Grid<std::int32_t> connected_components(OrganizedCloud const& cloud, NormalMap const& normals,
-                                        Grid<std::uint8_t> const& active,
-                                        ReachabilityLimits const& limits) {
+std::vector<ComponentRun> component_runs(OrganizedCloud const& cloud, NormalMap const& normals,
+                                         Grid<std::uint8_t> const& active,
+                                         ReachabilityLimits const& limits) {
   ReachThresholds const reach(limits);
   if (!cloud.x.same_size(normals.x) || !cloud.x.same_size(active)) {
     throw std::logic_error(
@@ -86,13 +86,11 @@ Grid<std::int32_t> connected_components(OrganizedCloud const& cloud, NormalMap c
         std::to_string(active.height()) + " must have one size");
   }
   if (cloud.empty()) {
-    return {cloud.width(), cloud.height(), kNoComponent};
+    return {};
   }
   if (cloud.width() < kMinWidth) {
-    return with_width(
-        connected_components(with_width(cloud, kMinWidth), with_width(normals, kMinWidth),
-                             with_width(active, kMinWidth, std::uint8_t{0}), limits),
-        cloud.width(), kNoComponent);
+    return component_runs(with_width(cloud, kMinWidth), with_width(normals, kMinWidth),
+                          with_width(active, kMinWidth, std::uint8_t{0}), limits);
   }
   PointArrays const points = arrays_of(cloud, normals);
   LinkBits const links = reachability::link_neighbours(points, active.data(), reach);
@@ -100,7 +98,17 @@ Grid<std::int32_t> connected_components(OrganizedCloud const& cloud, NormalMap c
   DisjointSets sets(runs.size());
   reachability::unite_linked_runs(links, runs, sets);
   reachability::unite_all_in_reach(points, links, runs, reach, sets);
-  return paint(runs, sets, cloud.width(), cloud.height());
+  return numbered(runs, sets);
+}
+
+Grid<std::int32_t> connected_components(OrganizedCloud const& cloud, NormalMap const& normals,
+                                        Grid<std::uint8_t> const& active,
+                                        ReachabilityLimits const& limits) {
+  Grid<std::int32_t> components(cloud.width(), cloud.height(), kNoComponent);
+  for (ComponentRun const& run : component_runs(cloud, normals, active, limits)) {
+    std::fill_n(components.row(run.v).begin() + run.begin, run.end - run.begin, run.component);
+  }
+  return components;
 }
 
 }  // namespace credo

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 #include "core/cloud.hpp"
 #include "core/grid.hpp"
@@ -58,7 +59,8 @@ inline constexpr std::int32_t kNoComponent = -1;
 /// any cloud: the image serves only to find neighbours early. Nothing is assumed about the
 /// projection (registered clouds are fine) nor about the length of normals. The time grows where
 /// that regularity is missing: a Kinect frame of a room takes a few milliseconds on one thread, a
-/// frame whose normals are pure noise up to a hundred times that.
+/// frame whose normals are pure noise up to a hundred times that. The bound for anything: two tiles
+/// of 8 x 8 pixels within reach of each other cost no more than testing all their pairs of pixels.
 ///
 /// Throws std::logic_error where the sizes of the grids differ or the limits are not as
 /// ReachThresholds demands.
@@ -66,5 +68,20 @@ inline constexpr std::int32_t kNoComponent = -1;
                                                       NormalMap const& normals,
                                                       Grid<std::uint8_t> const& active,
                                                       ReachabilityLimits const& limits);
+
+/// Pixels (begin, v) ... (end - 1, v) of one component.
+struct ComponentRun {
+  int v = 0;
+  int begin = 0;
+  int end = 0;
+  std::int32_t component = kNoComponent;
+};
+
+/// The same components, as runs in raster order that cover exactly their pixels; a run need not be
+/// the longest there is. Much smaller than the grid.
+[[nodiscard]] std::vector<ComponentRun> component_runs(OrganizedCloud const& cloud,
+                                                       NormalMap const& normals,
+                                                       Grid<std::uint8_t> const& active,
+                                                       ReachabilityLimits const& limits);
 
 }  // namespace credo

@@ -1,6 +1,7 @@
 #include "geometry/reachability_kernels.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 // This file is compiled once for each instruction set.
@@ -9,198 +10,41 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "geometry/reachability_vectors-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace credo::reachability::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
-// At most one row of a tile: masks fit a byte, whatever the width of the machine's vectors.
-using Floats = hn::CappedTag<float, kTile>;
-using Vec = hn::Vec<Floats>;
-using Mask = hn::Mask<Floats>;
-
-struct Vec3 {
-  Vec x, y, z;
-};
-
-// The same operations, in the same order, as credo::ordered_dot.
-HWY_INLINE Vec ordered_dot(Vec3 const& a, Vec3 const& b) {
-  return hn::Add(hn::Mul(a.x, b.x), hn::Add(hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)));
+std::size_t first_pixel(TilePixels const& pixels, int width) {
+  return static_cast<std::size_t>(pixels.v) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(pixels.u);
 }
 
-HWY_INLINE Vec3 difference(Vec3 const& a, Vec3 const& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-
-HWY_INLINE Vec3 load(std::array<float const*, 3> const& arrays, std::size_t i) {
-  Floats const d;
-  return {hn::LoadU(d, arrays[0] + i), hn::LoadU(d, arrays[1] + i), hn::LoadU(d, arrays[2] + i)};
-}
-
-struct Oriented {
-  Vec3 point, normal;
-};
-
-HWY_INLINE Oriented load(PointArrays const& points, std::size_t i) {
-  return {load(points.point, i), load(points.normal, i)};
-}
-
-// The same as credo::within_reach.
-HWY_INLINE Mask within_reach(Oriented const& a, Oriented const& b, ReachThresholds const& reach) {
-  Floats const d;
-  Vec3 const step = difference(a.point, b.point);
-  return hn::And(hn::Le(ordered_dot(step, step), hn::Set(d, reach.max_squared_distance_m2)),
-                 hn::Gt(ordered_dot(a.normal, b.normal), hn::Set(d, reach.min_cosine)));
-}
-
-HWY_INLINE std::uint64_t bits_of(Mask mask) {
-  std::array<std::uint8_t, 8> bytes{};
-  hn::StoreMaskBits(Floats(), mask, bytes.data());
-  return bytes[0];
-}
-
-HWY_INLINE Mask mask_of(std::uint64_t bits) {
-  std::array<std::uint8_t, 8> const bytes{static_cast<std::uint8_t>(bits)};
-  return hn::LoadMaskBits(Floats(), bytes.data());
-}
-
-// x - x is 0 where x is finite, else NaN.
-HWY_INLINE Mask finite(Oriented const& a) {
-  Vec3 const p = difference(a.point, a.point);
-  Vec3 const n = difference(a.normal, a.normal);
-  Vec const sum = hn::Add(hn::Add(hn::Add(p.x, p.y), hn::Add(p.z, n.x)), hn::Add(n.y, n.z));
-  return hn::Eq(sum, hn::Zero(Floats()));
-}
-
-HWY_INLINE Mask active_mask(std::uint8_t const* active) {
-  Floats const d;
-  hn::Rebind<std::uint8_t, Floats> const bytes;
-  hn::RebindToSigned<Floats> const ints;
-  auto const values = hn::PromoteTo(ints, hn::LoadU(bytes, active));
-  return hn::RebindMask(d, hn::Ne(values, hn::Zero(ints)));
-}
-
-HWY_INLINE void put(std::uint64_t* row, std::size_t u, std::uint64_t bits) {
-  row[u / 64] |= bits << (u % 64);
-  row[u / 64 + 1] |= u % 64 == 0 ? 0 : bits >> (64 - u % 64);
-}
-
-class SquaredLengths {
-public:
-  SquaredLengths() : min_(hn::Set(Floats(), 1.0F)), max_(hn::Set(Floats(), 1.0F)) {}
-  void add(Vec3 const& normal, Mask usable) {
-    Vec const squared = ordered_dot(normal, normal);
-    min_ = hn::Min(min_, hn::IfThenElse(usable, squared, min_));
-    max_ = hn::Max(max_, hn::IfThenElse(usable, squared, max_));
-  }
-  [[nodiscard]] float min() const { return hn::GetLane(hn::MinOfLanes(Floats(), min_)); }
-  [[nodiscard]] float max() const { return hn::GetLane(hn::MaxOfLanes(Floats(), max_)); }
-
-private:
-  Vec min_;
-  Vec max_;
-};
-
-// The links between one row and the row above, not yet masked by what is usable.
-void link_row(PointArrays const& points, std::uint8_t const* active, int v,
-              ReachThresholds const& reach, SquaredLengths& lengths, LinkBits& links) {
-  auto const width = static_cast<std::size_t>(points.width);
+// Calls visit(i, bits, shift) for each vector of pixels of which any is in the mask: position i in
+// the arrays, bits of its lanes, place of the first of them in the mask. Ends where visit is true.
+template <typename Visit>
+HWY_INLINE void visit_vectors(TilePixels const& pixels, int width, Visit const& visit) {
   std::size_t const lanes = hn::Lanes(Floats());
-  std::size_t const row = static_cast<std::size_t>(v) * width;
-  // The last step overlaps the one before it; the last column is left to link_last_column.
-  std::size_t const last = width - 1 - lanes;
-  for (std::size_t u = 0;; u = std::min(u + lanes, last)) {
-    Oriented const here = load(points, row + u);
-    Oriented const right = load(points, row + u + 1);
-    Mask const usable = hn::And(finite(here), active_mask(active + row + u));
-    lengths.add(here.normal, usable);
-    put(links.usable.row(v), u, bits_of(usable));
-    put(links.right.row(v), u, bits_of(within_reach(here, right, reach)));
-    if (v > 0) {
-      Oriented const above = load(points, row - width + u);
-      Oriented const above_right = load(points, row - width + u + 1);
-      put(links.up.row(v), u, bits_of(within_reach(here, above, reach)));
-      put(links.rising.row(v), u, bits_of(within_reach(here, above_right, reach)));
-      put(links.falling.row(v), u, bits_of(within_reach(above, right, reach)));
-    }
-    if (u == last) {
-      return;
-    }
-  }
-}
-
-// The last column has no right neighbour: step one column back and keep the last lane.
-void link_last_column(PointArrays const& points, std::uint8_t const* active, int v,
-                      ReachThresholds const& reach, SquaredLengths& lengths, LinkBits& links) {
-  auto const width = static_cast<std::size_t>(points.width);
-  std::size_t const lanes = hn::Lanes(Floats());
-  std::size_t const u = width - lanes;
-  std::size_t const i = static_cast<std::size_t>(v) * width + u;
-  Oriented const here = load(points, i);
-  Mask const usable = hn::And(finite(here), active_mask(active + i));
-  lengths.add(here.normal, usable);
-  put(links.usable.row(v), u, bits_of(usable));
-  if (v > 0) {
-    put(links.up.row(v), u, bits_of(within_reach(here, load(points, i - width), reach)));
-  }
-}
-
-LinkBits link_neighbours(PointArrays const& points, std::uint8_t const* active,
-                         ReachThresholds const& reach) {
-  LinkBits links(points.width, points.height);
-  SquaredLengths lengths;
-  for (int v = 0; v < points.height; ++v) {
-    link_row(points, active, v, reach, lengths, links);
-    link_last_column(points, active, v, reach, lengths, links);
-  }
-  links.min_squared_normal = lengths.min();
-  links.max_squared_normal = lengths.max();
-  return links;
-}
-
-HWY_INLINE Vec3 broadcast(float x, float y, float z) {
-  Floats const d;
-  return {hn::Set(d, x), hn::Set(d, y), hn::Set(d, z)};
-}
-
-HWY_INLINE void include(Vec value, Mask mask, Vec& min, Vec& max) {
-  Vec const above_all = hn::Set(Floats(), std::numeric_limits<float>::infinity());
-  min = hn::Min(min, hn::IfThenElse(mask, value, above_all));
-  max = hn::Max(max, hn::IfThenElse(mask, value, hn::Neg(above_all)));
-}
-
-// Bounds of three arrays over a tile, into places `first` to `first + 2`.
-HWY_INLINE void bound_axes(std::array<float const*, 3> const& arrays, int width,
-                           TilePixels const& pixels, std::size_t first, Bounds& bounds) {
-  Floats const d;
-  std::size_t const lanes = hn::Lanes(d);
-  float const inf = std::numeric_limits<float>::infinity();
-  Vec3 min = broadcast(inf, inf, inf);
-  Vec3 max = broadcast(-inf, -inf, -inf);
-  std::size_t row = static_cast<std::size_t>(pixels.v) * static_cast<std::size_t>(width) +
-                    static_cast<std::size_t>(pixels.u);
-  for (std::uint64_t rest = pixels.mask; rest != 0; rest >>= kTile) {
-    for (std::size_t i = 0; i < kTile && (rest & 0xFFU) != 0; i += lanes) {
-      Mask const mask = mask_of((rest & 0xFFU) >> i);
-      Vec3 const value = load(arrays, row + i);
-      include(value.x, mask, min.x, max.x);
-      include(value.y, mask, min.y, max.y);
-      include(value.z, mask, min.z, max.z);
+  std::uint64_t const ones = (std::uint64_t{1} << lanes) - 1;
+  std::size_t row = first_pixel(pixels, width);
+  for (int shift = 0; shift < kTile * kTile && (pixels.mask >> shift) != 0; shift += kTile) {
+    for (int k = 0; k < kTile; k += static_cast<int>(lanes)) {
+      std::uint64_t const bits = (pixels.mask >> (shift + k)) & ones;
+      if (bits != 0 && visit(row + static_cast<std::size_t>(k), bits, shift + k)) {
+        return;
+      }
     }
     row += static_cast<std::size_t>(width);
   }
-  std::array<Vec, 3> const mins{min.x, min.y, min.z};
-  std::array<Vec, 3> const maxs{max.x, max.y, max.z};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    bounds.min[first + axis] = hn::GetLane(hn::MinOfLanes(d, mins[axis]));
-    bounds.max[first + axis] = hn::GetLane(hn::MaxOfLanes(d, maxs[axis]));
-  }
 }
 
-Bounds bounds_of(PointArrays const& points, TilePixels const& pixels) {
-  Bounds bounds;
-  bound_axes(points.point, points.width, pixels, 0, bounds);
-  bound_axes(points.normal, points.width, pixels, 3, bounds);
-  return bounds;
+Box box_of(std::array<float const*, 3> const& arrays, int width, TilePixels const& pixels) {
+  LaneBounds bounds = nothing();
+  visit_vectors(pixels, width, [&](std::size_t i, std::uint64_t bits, int) {
+    include(load(arrays, i), mask_of(bits), bounds);
+    return false;
+  });
+  return box_over_lanes(bounds);
 }
 
 // Squared distance of points to a box, a lower bound of within_reach's squared distance to any
@@ -216,68 +60,74 @@ HWY_INLINE Vec squared_gap(Vec3 const& min, Vec3 const& max, Vec3 const& box_min
   return ordered_dot(gap, gap);
 }
 
-// Points of a tile, packed; the last vector is filled up with NaN, which is in reach of nothing.
-struct PackedPoints {
-  static constexpr std::size_t kRoom = kTile * kTile + kTile;
-  std::array<std::array<float, kRoom>, 6> values;
-  std::size_t count = 0;
-
-  [[nodiscard]] PointArrays arrays() const {
-    return {.point = {values[0].data(), values[1].data(), values[2].data()},
-            .normal = {values[3].data(), values[4].data(), values[5].data()}};
-  }
-};
-
 // Those of the pixels whose point lies within the radius of the box.
-void pack(PointArrays const& points, TilePixels const& pixels, Bounds const& box,
-          ReachThresholds const& reach, PackedPoints& packed) {
-  Floats const d;
-  std::size_t const lanes = hn::Lanes(d);
+HWY_INLINE TilePixels near_box(PointArrays const& points, TilePixels const& pixels, Box const& box,
+                               ReachThresholds const& reach) {
   Vec3 const box_min = broadcast(box.min[0], box.min[1], box.min[2]);
   Vec3 const box_max = broadcast(box.max[0], box.max[1], box.max[2]);
-  Vec const limit = hn::Set(d, reach.max_squared_distance_m2);
-  std::size_t row = static_cast<std::size_t>(pixels.v) * static_cast<std::size_t>(points.width) +
-                    static_cast<std::size_t>(pixels.u);
-  for (std::uint64_t rest = pixels.mask; rest != 0; rest >>= kTile) {
-    for (std::size_t i = 0; i < kTile && (rest & 0xFFU) != 0; i += lanes) {
-      Oriented const here = load(points, row + i);
-      Mask const near =
-          hn::And(mask_of((rest & 0xFFU) >> i),
-                  hn::Le(squared_gap(here.point, here.point, box_min, box_max), limit));
-      std::array<Vec, 6> const values{here.point.x,  here.point.y,  here.point.z,
-                                      here.normal.x, here.normal.y, here.normal.z};
-      for (std::size_t axis = 0; axis < 6; ++axis) {
-        hn::StoreU(hn::Compress(values[axis], near), d, packed.values[axis].data() + packed.count);
-      }
-      packed.count += hn::CountTrue(d, near);
-    }
-    row += static_cast<std::size_t>(points.width);
-  }
-  for (auto& values : packed.values) {
-    hn::StoreU(hn::Set(d, kNaN), d, values.data() + packed.count);
-  }
+  Vec const limit = hn::Set(Floats(), reach.max_squared_distance_m2);
+  TilePixels result = pixels;
+  result.mask = 0;
+  visit_vectors(pixels, points.width, [&](std::size_t i, std::uint64_t bits, int shift) {
+    Vec3 const here = load(points.point, i);
+    std::uint64_t const near = bits_of(hn::Le(squared_gap(here, here, box_min, box_max), limit));
+    result.mask |= (near & bits) << shift;
+    return false;
+  });
+  return result;
 }
 
-bool any_within_reach(PointArrays const& points, TilePixels const& a, Bounds const& bounds_a,
-                      TilePixels const& b, Bounds const& bounds_b, ReachThresholds const& reach) {
-  PackedPoints packed_a;
-  PackedPoints packed_b;
-  pack(points, a, bounds_b, reach, packed_a);
-  pack(points, b, bounds_a, reach, packed_b);
-  bool const a_is_smaller = packed_a.count < packed_b.count;
-  PackedPoints const& few = a_is_smaller ? packed_a : packed_b;
-  PackedPoints const& many = a_is_smaller ? packed_b : packed_a;
-  PointArrays const many_arrays = many.arrays();
-  for (std::size_t i = 0; i < few.count; ++i) {
-    Oriented const one = {broadcast(few.values[0][i], few.values[1][i], few.values[2][i]),
-                          broadcast(few.values[3][i], few.values[4][i], few.values[5][i])};
-    for (std::size_t j = 0; j < many.count; j += hn::Lanes(Floats())) {
-      if (!hn::AllFalse(Floats(), within_reach(one, load(many_arrays, j), reach))) {
-        return true;
-      }
+HWY_INLINE Oriented pixel_of(PointArrays const& points, TilePixels const& tile, int bit) {
+  std::size_t const i =
+      first_pixel(tile, points.width) +
+      static_cast<std::size_t>(bit / kTile) * static_cast<std::size_t>(points.width) +
+      static_cast<std::size_t>(bit % kTile);
+  return {broadcast(points.point[0][i], points.point[1][i], points.point[2][i]),
+          broadcast(points.normal[0][i], points.normal[1][i], points.normal[2][i])};
+}
+
+HWY_INLINE bool any_neighbour(PointArrays const& points, Oriented const& one,
+                              TilePixels const& many, ReachThresholds const& reach) {
+  bool any = false;
+  visit_vectors(many, points.width, [&](std::size_t i, std::uint64_t bits, int) {
+    any = (bits_of(within_reach(one, load(points, i), reach)) & bits) != 0;
+    return any;
+  });
+  return any;
+}
+
+bool any_within_reach(PointArrays const& points, TilePixels const& a, Box const& box_a,
+                      TilePixels const& b, Box const& box_b, ReachThresholds const& reach) {
+  TilePixels const near_a = near_box(points, a, box_b, reach);
+  if (near_a.mask == 0) {
+    return false;
+  }
+  TilePixels const near_b = near_box(points, b, box_a, reach);
+  bool const a_is_smaller = std::popcount(near_a.mask) < std::popcount(near_b.mask);
+  TilePixels const& few = a_is_smaller ? near_a : near_b;
+  TilePixels const& many = a_is_smaller ? near_b : near_a;
+  for (std::uint64_t rest = few.mask; rest != 0; rest &= rest - 1) {
+    if (any_neighbour(points, pixel_of(points, few, std::countr_zero(rest)), many, reach)) {
+      return true;
     }
   }
   return false;
+}
+
+TileLinks tile_links(PointArrays const& points, TilePixels const& a, TilePixels const& b,
+                     ReachThresholds const& reach) {
+  TileLinks links{};
+  for (std::uint64_t rest = a.mask; rest != 0; rest &= rest - 1) {
+    int const bit = std::countr_zero(rest);
+    Oriented const one = pixel_of(points, a, bit);
+    std::uint64_t linked = 0;
+    visit_vectors(b, points.width, [&](std::size_t i, std::uint64_t bits, int shift) {
+      linked |= (bits_of(within_reach(one, load(points, i), reach)) & bits) << shift;
+      return false;
+    });
+    links[static_cast<std::size_t>(bit)] = linked;
+  }
+  return links;
 }
 
 std::uint32_t boxes_in_reach(BoxList const& others, std::size_t i, BoxList const& boxes,
@@ -310,23 +160,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace credo::reachability {
 
-HWY_EXPORT(link_neighbours);
-HWY_EXPORT(bounds_of);
+HWY_EXPORT(box_of);
 HWY_EXPORT(any_within_reach);
+HWY_EXPORT(tile_links);
 HWY_EXPORT(boxes_in_reach);
 
-LinkBits link_neighbours(PointArrays const& points, std::uint8_t const* active,
-                         ReachThresholds const& reach) {
-  return HWY_DYNAMIC_DISPATCH(link_neighbours)(points, active, reach);
+Box box_of(std::array<float const*, 3> const& arrays, int width, TilePixels const& pixels) {
+  return HWY_DYNAMIC_DISPATCH(box_of)(arrays, width, pixels);
 }
 
-Bounds bounds_of(PointArrays const& points, TilePixels const& pixels) {
-  return HWY_DYNAMIC_DISPATCH(bounds_of)(points, pixels);
+bool any_within_reach(PointArrays const& points, TilePixels const& a, Box const& box_a,
+                      TilePixels const& b, Box const& box_b, ReachThresholds const& reach) {
+  return HWY_DYNAMIC_DISPATCH(any_within_reach)(points, a, box_a, b, box_b, reach);
 }
 
-bool any_within_reach(PointArrays const& points, TilePixels const& a, Bounds const& bounds_a,
-                      TilePixels const& b, Bounds const& bounds_b, ReachThresholds const& reach) {
-  return HWY_DYNAMIC_DISPATCH(any_within_reach)(points, a, bounds_a, b, bounds_b, reach);
+TileLinks tile_links(PointArrays const& points, TilePixels const& a, TilePixels const& b,
+                     ReachThresholds const& reach) {
+  return HWY_DYNAMIC_DISPATCH(tile_links)(points, a, b, reach);
 }
 
 std::uint32_t boxes_in_reach(BoxList const& others, std::size_t i, BoxList const& boxes,
@@ -342,11 +192,15 @@ BoxList::BoxList(std::size_t count)
   max.fill(std::vector<float>(first_root.size(), -std::numeric_limits<float>::infinity()));
 }
 
-void BoxList::set_bounds(std::size_t i, Bounds const& bounds) {
+void BoxList::set_box(std::size_t i, Box const& box) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    min[axis][i] = bounds.min[axis];
-    max[axis][i] = bounds.max[axis];
+    min[axis][i] = box.min[axis];
+    max[axis][i] = box.max[axis];
   }
+}
+
+Box BoxList::box(std::size_t i) const {
+  return {.min = {min[0][i], min[1][i], min[2][i]}, .max = {max[0][i], max[1][i], max[2][i]}};
 }
 
 void BoxList::include(std::size_t i, BoxList const& other, std::size_t j) {

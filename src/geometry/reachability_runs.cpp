@@ -6,20 +6,30 @@
 namespace credo::reachability {
 namespace {
 
-constexpr int kWordBits = 64;
+constexpr unsigned kWordBits = 64;
 
 // Is any of the bits begin ... end - 1 of the row set?
 bool any_bit(std::uint64_t const* row, int begin, int end) {
-  while (begin < end) {
-    int const offset = begin % kWordBits;
-    int const count = std::min(end - begin, kWordBits - offset);
-    std::uint64_t const ones = ~std::uint64_t{0} >> (kWordBits - count);
-    if ((row[begin / kWordBits] & (ones << offset)) != 0) {
+  if (begin >= end) {
+    return false;
+  }
+  auto const first = static_cast<unsigned>(begin);
+  auto const last = static_cast<unsigned>(end) - 1;
+  std::uint64_t const from_first = ~std::uint64_t{0} << (first % kWordBits);
+  std::uint64_t const to_last = ~std::uint64_t{0} >> (kWordBits - 1 - last % kWordBits);
+  unsigned word = first / kWordBits;
+  if (word == last / kWordBits) {
+    return (row[word] & from_first & to_last) != 0;
+  }
+  if ((row[word] & from_first) != 0) {
+    return true;
+  }
+  for (++word; word < last / kWordBits; ++word) {
+    if (row[word] != 0) {
       return true;
     }
-    begin += count;
   }
-  return false;
+  return (row[word] & to_last) != 0;
 }
 
 // Does a link join the run `below` to the run `above`, one row up?
@@ -46,7 +56,7 @@ std::vector<Run> find_runs(LinkBits const& links, int height) {
       std::uint64_t const next = w + 1 < words ? usable[w + 1] : 0;
       std::uint64_t const joined =
           right[w] & usable[w] & ((usable[w] >> 1) | (next << (kWordBits - 1)));
-      int const u = static_cast<int>(w) * kWordBits;
+      int const u = static_cast<int>(w * kWordBits);
       std::uint64_t starts = usable[w] & ~((joined << 1) | joined_before);
       for (; starts != 0; starts &= starts - 1) {
         runs.push_back({.v = v, .begin = u + std::countr_zero(starts)});

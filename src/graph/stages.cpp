@@ -29,7 +29,7 @@ void make_independent(Stages& stages, PipelineConfig const& config, BeliefPtr co
 
 }  // namespace
 
-Stages make_stages(PipelineConfig const& config, WorldLevel const& level, BeliefPtr prior) {
+Stages make_stages(PipelineConfig const& config, WorldLevel const& level, BeliefPtr const& prior) {
   Stages stages;
   stages.normals = [config](Frame const& frame) {
     return estimate_normals(frame.cloud_camera, frame.intrinsics, config.normals);

@@ -26,7 +26,7 @@ struct Stages {
 
 /// The real stages. With capture.independent_frames every frame is segmented with the prior, fused
 /// into it and levelled by itself; `level` is then unused, and ids still are never used twice.
-Stages make_stages(PipelineConfig const& config, WorldLevel const& level, BeliefPtr prior);
+Stages make_stages(PipelineConfig const& config, WorldLevel const& level, BeliefPtr const& prior);
 
 /// The first half of the method, for one frame: everything up to the belief.
 Segmentation segment(Stages const& stages, Frame const& frame, BeliefState const& seen);

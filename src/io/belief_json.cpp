@@ -94,7 +94,8 @@ std::string belief_json(BeliefState const& belief) {
                      {"walls", list(belief.walls, wall_json)},
                      {"objects", list(belief.objects, object_json)},
                      {"stuff", list(belief.stuff, stuff_json)}};
-  return line.dump();
+  // Ids come from files that people write: a broken character must not cost the frame.
+  return line.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace credo

@@ -45,8 +45,7 @@ std::string size_text(int width, int height) {
 
 class DatasetSource : public FrameSource {
 public:
-  DatasetSource(fs::path folder, CaptureConfig const& capture, PoseConfig const& pose,
-                std::vector<std::string>& warnings)
+  DatasetSource(fs::path folder, CaptureConfig const& capture, PoseConfig const& pose)
       : folder_(std::move(folder)),
         capture_(capture),
         pose_source_(pose.source),
@@ -55,9 +54,12 @@ public:
       listing_.depth_unit_m = capture.depth_unit_m;
     }
     if (pose.source == PoseSource::kFile) {
+      if (pose.file.empty()) {
+        throw InputError("pose.source is file, but pose.file names none");
+      }
       trajectory_.emplace(pose.file);
     }
-    SourceResult first = load(0, &warnings);
+    SourceResult first = load(0);
     if (auto const* failure = std::get_if<FrameFailure>(&first)) {
       throw InputError(failure->message);
     }
@@ -65,23 +67,22 @@ public:
   }
 
   [[nodiscard]] std::size_t frame_count() const { return listing_.entries.size(); }
+  [[nodiscard]] std::vector<std::string> const& warnings() const { return listing_.warnings; }
 
   SourceResult next() override {
     if (position_ == listing_.entries.size()) {
       return EndOfSource{};
     }
     std::size_t const index = position_++;
-    return index == 0 ? SourceResult(std::move(first_)) : load(index, nullptr);
+    return index == 0 ? SourceResult(std::move(first_)) : load(index);
   }
 
 private:
-  /// `warnings` is given for the first frame, which settles intrinsics and size.
-  SourceResult load(std::size_t index, std::vector<std::string>* warnings) {
+  SourceResult load(std::size_t index) {
     DatasetEntry const& entry = listing_.entries[index];
     FrameIndex const frame_index{static_cast<std::int64_t>(index)};
     try {
-      Pictures pictures =
-          entry.cloud.empty() ? read_images(entry, index, warnings) : read_cloud(entry, warnings);
+      Pictures pictures = entry.cloud.empty() ? read_images(entry) : read_cloud(entry);
       auto frame = std::make_shared<Frame>();
       frame->index = frame_index;
       frame->stamp_ns = entry.stamp_ns;
@@ -95,9 +96,10 @@ private:
     }
   }
 
-  void settle(int width, int height, fs::path const& file, std::vector<std::string>* warnings) {
-    if (warnings != nullptr) {
-      intrinsics_ = find_intrinsics(folder_, capture_, width, height, *warnings);
+  /// The first frame settles size and intrinsics; the others must be like it.
+  void check_size(int width, int height, fs::path const& file) {
+    if (width_ == 0) {
+      intrinsics_ = find_intrinsics(folder_, capture_, width, height, listing_.warnings);
       width_ = width;
       height_ = height;
     } else if (width != width_ || height != height_) {
@@ -106,17 +108,15 @@ private:
     }
   }
 
-  Pictures read_images(DatasetEntry const& entry, std::size_t index,
-                       std::vector<std::string>* warnings) {
+  Pictures read_images(DatasetEntry const& entry) {
     if (entry.depth.empty()) {
       throw FrameFault{"missing_depth", entry.color.string() + ": colour without depth"};
     }
     if (entry.color.empty()) {
-      throw FrameFault{"missing_color", entry.depth.string() + ": depth without colour (frame " +
-                                            std::to_string(index) + ")"};
+      throw FrameFault{"missing_color", entry.depth.string() + ": depth without colour"};
     }
     Grid<float> depth_m = read_depth(entry.depth);
-    settle(depth_m.width(), depth_m.height(), entry.depth, warnings);
+    check_size(depth_m.width(), depth_m.height(), entry.depth);
     Pictures pictures;
     pictures.color = read_frame_color(entry.color);
     if (!pictures.color.same_size(depth_m)) {
@@ -153,10 +153,10 @@ private:
     }
   }
 
-  Pictures read_cloud(DatasetEntry const& entry, std::vector<std::string>* warnings) {
+  Pictures read_cloud(DatasetEntry const& entry) {
     try {
       ColoredCloud read = read_pcd(entry.cloud, capture_.axes, capture_.max_depth_m);
-      settle(read.cloud_camera.width(), read.cloud_camera.height(), entry.cloud, warnings);
+      check_size(read.cloud_camera.width(), read.cloud_camera.height(), entry.cloud);
       return {std::move(read.cloud_camera), std::move(read.color)};
     } catch (InputError const& error) {
       throw FrameFault{"bad_cloud", error.what()};
@@ -204,7 +204,8 @@ private:
 OpenedSource open_dataset(fs::path const& folder, CaptureConfig const& capture,
                           PoseConfig const& pose) {
   OpenedSource opened;
-  auto source = std::make_unique<DatasetSource>(folder, capture, pose, opened.warnings);
+  auto source = std::make_unique<DatasetSource>(folder, capture, pose);
+  opened.warnings = source->warnings();
   opened.frame_count = source->frame_count();
   opened.source = std::move(source);
   return opened;

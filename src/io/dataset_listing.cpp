@@ -4,10 +4,13 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <regex>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/frame.hpp"
@@ -20,6 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr double kTumDepthUnitM = 1.0 / 5000.0;
 constexpr std::int64_t kMaxStampGapNs = 20'000'000;
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 std::int64_t stamp_of_frame(std::size_t index) {
   return static_cast<std::int64_t>(index) * 1'000'000'000 / 30;
@@ -76,7 +80,11 @@ struct StampedFile {
   fs::path path;
 };
 
-/// A TUM list: `stamp_s file` lines.
+[[noreturn]] void fail_at(fs::path const& path, int line, std::string const& what) {
+  throw InputError(path.string() + ":" + std::to_string(line) + ": " + what);
+}
+
+/// A TUM list: `stamp_s file` lines, in order of time.
 std::vector<StampedFile> read_tum_list(fs::path const& path) {
   std::ifstream file(path);
   if (!file) {
@@ -87,22 +95,50 @@ std::vector<StampedFile> read_tum_list(fs::path const& path) {
   for (std::string line; std::getline(file, line);) {
     ++line_number;
     std::istringstream words(line.substr(0, line.find('#')));
-    double stamp_s = 0;
-    std::string name;
-    if (!(words >> std::ws) || words.eof()) {
+    if ((words >> std::ws).eof()) {
       continue;
     }
-    if (!(words >> stamp_s >> name) || !std::isfinite(stamp_s)) {
-      throw InputError(path.string() + ":" + std::to_string(line_number) +
-                       ": needs a stamp in seconds and a file name");
+    double stamp_s = 0;
+    std::string name;
+    words >> stamp_s >> name;
+    std::optional<std::int64_t> const stamp_ns = stamp_from_seconds(stamp_s);
+    if (!words || !stamp_ns) {
+      fail_at(path, line_number, "needs a stamp in seconds and a file name");
     }
-    list.push_back(
-        {static_cast<std::int64_t>(std::llround(stamp_s * 1e9)), path.parent_path() / name});
-    if (list.size() > 1 && list.back().stamp_ns < list[list.size() - 2].stamp_ns) {
-      throw InputError(path.string() + ":" + std::to_string(line_number) + ": stamp falls");
+    if (!list.empty() && *stamp_ns < list.back().stamp_ns) {
+      fail_at(path, line_number, "stamp falls");
     }
+    list.push_back({*stamp_ns, path.parent_path() / name});
   }
   return list;
+}
+
+/// The file nearest in time, the earlier of two that are equally near; empty where none is near.
+fs::path nearest_file(std::vector<StampedFile> const& list, std::int64_t stamp_ns) {
+  auto const after = std::lower_bound(
+      list.begin(), list.end(), stamp_ns,
+      [](StampedFile const& file, std::int64_t stamp) { return file.stamp_ns < stamp; });
+  std::int64_t const until = after == list.end() ? kNever : after->stamp_ns - stamp_ns;
+  std::int64_t const since = after == list.begin() ? kNever : stamp_ns - std::prev(after)->stamp_ns;
+  if (std::min(since, until) > kMaxStampGapNs) {
+    return {};
+  }
+  return since <= until ? std::prev(after)->path : after->path;
+}
+
+/// Drops the depth images before the first that has all a frame needs, if there is one.
+void drop_early_start(DatasetListing& listing, fs::path const& folder) {
+  auto const first = std::find_if(
+      listing.entries.begin(), listing.entries.end(), [&listing](DatasetEntry const& entry) {
+        return !entry.color.empty() && (entry.pose.has_value() || !listing.has_poses);
+      });
+  auto const early = first - listing.entries.begin();
+  if (early > 0 && first != listing.entries.end()) {
+    listing.warnings.push_back(folder.string() + ": passing over the first " +
+                               std::to_string(early) +
+                               " depth images, which have no colour or no pose");
+    listing.entries.erase(listing.entries.begin(), first);
+  }
 }
 
 DatasetListing list_tum(fs::path const& folder) {
@@ -115,36 +151,35 @@ DatasetListing list_tum(fs::path const& folder) {
   DatasetListing listing;
   listing.depth_unit_m = kTumDepthUnitM;
   listing.has_poses = trajectory.has_value();
-  for (StampedFile const& d : depth) {
+  for (StampedFile const& image : depth) {
     DatasetEntry entry;
-    entry.stamp_ns = d.stamp_ns;
-    entry.depth = d.path;
-    auto const nearest = std::min_element(
-        color.begin(), color.end(), [&d](StampedFile const& a, StampedFile const& b) {
-          return std::abs(a.stamp_ns - d.stamp_ns) < std::abs(b.stamp_ns - d.stamp_ns);
-        });
-    if (nearest != color.end() && std::abs(nearest->stamp_ns - d.stamp_ns) <= kMaxStampGapNs) {
-      entry.color = nearest->path;
-    }
+    entry.stamp_ns = image.stamp_ns;
+    entry.depth = image.path;
+    entry.color = nearest_file(color, image.stamp_ns);
     if (trajectory) {
-      entry.pose = trajectory->at(FrameIndex{0}, d.stamp_ns);
+      FrameIndex const index{static_cast<std::int64_t>(listing.entries.size())};
+      entry.pose = trajectory->at(index, image.stamp_ns);
     }
     listing.entries.push_back(std::move(entry));
   }
+  drop_early_start(listing, folder);
   return listing;
 }
 
 std::vector<fs::path> files_in(fs::path const& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
-    throw InputError("dataset " + folder.string() + ": no such folder");
+    throw InputError("dataset " + folder.string() +
+                     (fs::exists(folder, error) ? ": not a folder" : ": no such folder"));
   }
   std::vector<fs::path> files;
-  for (auto const& entry : fs::directory_iterator(folder, error)) {
-    files.push_back(entry.path());
-  }
-  if (error) {
-    throw InputError("dataset " + folder.string() + ": cannot be read: " + error.message());
+  try {
+    for (auto const& entry : fs::directory_iterator(folder)) {
+      files.push_back(entry.path());
+    }
+  } catch (fs::filesystem_error const& failure) {
+    throw InputError("dataset " + folder.string() +
+                     ": cannot be read: " + failure.code().message());
   }
   std::sort(files.begin(), files.end());
   return files;

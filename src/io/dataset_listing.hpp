@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/se3.hpp"
@@ -27,10 +28,14 @@ struct DatasetListing {
   double depth_unit_m = 0.001;
   /// Some frame has a pose: then every frame must.
   bool has_poses = false;
+  /// What a person should know about the recording.
+  std::vector<std::string> warnings;
 };
 
-/// Tells the layout of a folder and lists its frames. Throws InputError: no folder, nothing known
-/// in it, damaged lists. A number that has neither depth nor colour is a gap, not a frame.
+/// Tells the layout of a folder and lists its frames. A number that has neither depth nor colour is
+/// a gap, not a frame. The streams of a TUM recording do not start together: depth images before
+/// the first with colour and pose are no frames either, and are told as a warning. Throws
+/// InputError: no folder, nothing known in it, damaged lists.
 DatasetListing list_dataset(std::filesystem::path const& folder);
 
 }  // namespace credo

@@ -13,8 +13,9 @@ namespace credo {
 /// file cannot be read or is no pinhole matrix (focal lengths positive, last row 0 0 1, no skew).
 CameraIntrinsics read_intrinsics(std::filesystem::path const& path);
 
-/// Those of `folder`/camera-intrinsics.txt, else of the config (all four given), else 525 px and
-/// the middle of the image, with a line added to `warnings`.
+/// Those of `folder`/camera-intrinsics.txt, else of the config, else 525 px and the middle of the
+/// image, with a line added to `warnings`. Throws InputError also where the config gives some of
+/// the four only, or where the principal point is outside the image of `width` x `height` pixels.
 CameraIntrinsics find_intrinsics(std::filesystem::path const& folder, CaptureConfig const& config,
                                  int width, int height, std::vector<std::string>& warnings);
 

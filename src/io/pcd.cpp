@@ -4,93 +4,43 @@
 #include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 
-#include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstring>
-#include <fstream>
+#include <exception>
 #include <optional>
-#include <sstream>
 #include <string>
+
+#include "io/pcd_header.hpp"
 
 namespace credo {
 namespace {
 
-enum class DataKind : std::uint8_t { kAscii = 0, kBinary = 1, kCompressed = 2 };
+namespace fs = std::filesystem;
 
-struct Header {
+pcl::PCLPointCloud2 read_by_pcl(fs::path const& path) {
+  // PCL writes its complaints to the terminal; ours are thrown.
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   pcl::PCLPointCloud2 cloud;
-  DataKind kind = DataKind::kAscii;
-  std::size_t data_start = 0;
-};
-
-/// PCL's reader divides by zero where a header lacks its sizes, so those are looked for first.
-void check_header_words(std::filesystem::path const& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string line;
-  int found = 0;
-  // Far more lines than any header has.
-  for (int i = 0; i < 64 && std::getline(file, line); ++i) {
-    std::istringstream words(line);
-    std::string key;
-    std::int64_t value = 0;
-    words >> key;
-    if (key == "FIELDS") {
-      ++found;
-    } else if (key == "WIDTH" || key == "HEIGHT") {
-      found += words >> value && value > 0 && value < 100'000 ? 1 : 0;
-    } else if (key == "DATA") {
-      ++found;
-      break;
-    }
-  }
-  if (found != 4) {
-    throw InputError(path.string() +
-                     ": not a PCD file: its header needs FIELDS, WIDTH, HEIGHT and DATA");
-  }
-}
-
-Header read_header(pcl::PCDReader& reader, std::filesystem::path const& path) {
-  check_header_words(path);
-  Header header;
   Eigen::Vector4f origin;
   Eigen::Quaternionf orientation;
   int version = 0;
-  int kind = 0;
-  unsigned int data_start = 0;
-  if (reader.readHeader(path.string(), header.cloud, origin, orientation, version, kind,
-                        data_start) < 0) {
-    throw InputError(path.string() + ": not a PCD file, or its header is damaged");
+  try {
+    if (pcl::PCDReader().read(path.string(), cloud, origin, orientation, version) >= 0) {
+      return cloud;
+    }
+  } catch (std::exception const&) {
+    // Told below, like the faults that PCL tells by its result.
   }
-  header.kind = static_cast<DataKind>(kind);
-  header.data_start = data_start;
-  return header;
+  throw InputError(path.string() + ": damaged PCD data");
 }
 
-/// The reader trusts the header; a file cut by a full disk must be told before it is read.
-void check_complete(Header const& header, std::filesystem::path const& path) {
-  auto const size = std::filesystem::file_size(path);
-  std::size_t const points =
-      static_cast<std::size_t>(header.cloud.width) * static_cast<std::size_t>(header.cloud.height);
-  std::size_t needed = header.data_start;
-  if (header.kind == DataKind::kBinary) {
-    needed += points * header.cloud.point_step;
-  } else if (header.kind == DataKind::kCompressed) {
-    std::array<std::uint32_t, 2> lengths{};  // compressed, uncompressed
-    std::ifstream file(path, std::ios::binary);
-    file.seekg(static_cast<std::streamoff>(header.data_start));
-    file.read(reinterpret_cast<char*>(lengths.data()), sizeof lengths);
-    needed += sizeof lengths + (file ? lengths[0] : 0);
-  }
-  if (size < needed || size == header.data_start) {
-    throw InputError(path.string() + ": cut short, has " + std::to_string(size) + " of " +
-                     std::to_string(needed) + " bytes");
-  }
-}
-
+/// Where a field of four bytes lies in a point. Colours come packed in a float or an integer.
 std::optional<std::size_t> offset_of(pcl::PCLPointCloud2 const& cloud, std::string const& name,
-                                     bool needs_float) {
+                                     bool is_color) {
   for (auto const& field : cloud.fields) {
-    if (field.name == name && (!needs_float || field.datatype == pcl::PCLPointField::FLOAT32)) {
+    if (field.name == name && (field.datatype == pcl::PCLPointField::FLOAT32 ||
+                               (is_color && (field.datatype == pcl::PCLPointField::UINT32 ||
+                                             field.datatype == pcl::PCLPointField::INT32)))) {
       return field.offset;
     }
   }
@@ -131,37 +81,27 @@ void clean(OrganizedCloud& cloud, CloudAxes axes, double max_depth_m) {
 
 }  // namespace
 
-ColoredCloud read_pcd(std::filesystem::path const& path, CloudAxes axes, double max_depth_m) {
-  // PCL writes its complaints to the terminal; ours are thrown.
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  if (!std::filesystem::exists(path)) {
-    throw InputError(path.string() + ": no such file");
-  }
-  pcl::PCDReader reader;
-  check_complete(read_header(reader, path), path);
-  pcl::PCLPointCloud2 data;
-  Eigen::Vector4f origin;
-  Eigen::Quaternionf orientation;
-  int version = 0;
-  if (reader.read(path.string(), data, origin, orientation, version) < 0) {
+ColoredCloud read_pcd(fs::path const& path, CloudAxes axes, double max_depth_m) {
+  PcdHeader const header = read_pcd_header(path);
+  pcl::PCLPointCloud2 const data = read_by_pcl(path);
+  if (data.width != header.width || data.height != header.height ||
+      data.data.size() != header.points * data.point_step) {
     throw InputError(path.string() + ": damaged PCD data");
   }
-  if (data.height < 2 || data.width < 2) {
-    throw InputError(path.string() + ": not organised (" + std::to_string(data.width) + "x" +
-                     std::to_string(data.height) + "): an image of points is needed");
-  }
-  auto const x = offset_of(data, "x", true);
-  auto const y = offset_of(data, "y", true);
-  auto const z = offset_of(data, "z", true);
+  auto const x = offset_of(data, "x", false);
+  auto const y = offset_of(data, "y", false);
+  auto const z = offset_of(data, "z", false);
   if (!x || !y || !z) {
     throw InputError(path.string() + ": needs float fields x y z");
   }
-  auto color = offset_of(data, "rgba", false);
-  color = color ? color : offset_of(data, "rgb", false);
+  auto color = offset_of(data, "rgba", true);
+  color = color ? color : offset_of(data, "rgb", true);
   ColoredCloud result;
-  result.cloud_camera = OrganizedCloud(static_cast<int>(data.width), static_cast<int>(data.height));
+  auto const width = static_cast<int>(header.width);
+  auto const height = static_cast<int>(header.height);
+  result.cloud_camera = OrganizedCloud(width, height);
   if (color) {
-    result.color = Grid<Rgb>(static_cast<int>(data.width), static_cast<int>(data.height));
+    result.color = Grid<Rgb>(width, height);
   }
   for (std::size_t i = 0; i < result.cloud_camera.size(); ++i) {
     result.cloud_camera.set(i, {value_at<float>(data, i, *x), value_at<float>(data, i, *y),

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <map>
 
 #include "io/canvas.hpp"
 
@@ -56,11 +56,25 @@ void draw_color(Frame const& frame, Panel const& panel, Canvas& canvas) {
   }
 }
 
-void draw_labels(Frame const& frame, LabelMap const& labels, Panel const& panel, Canvas& canvas) {
+/// Stuff that the belief knows has its belief's colour, so that both halves of the picture agree.
+std::map<LabelCode, Rgb> colors_of_stuff(BeliefState const& belief) {
+  std::map<LabelCode, Rgb> colors;
+  for (StuffBelief const& stuff : belief.stuff) {
+    if (stuff.label) {
+      colors[*stuff.label] = stuff_color(stuff.id, 1.0);
+    }
+  }
+  return colors;
+}
+
+void draw_labels(Frame const& frame, LabelMap const& labels, BeliefState const& belief,
+                 Panel const& panel, Canvas& canvas) {
+  std::map<LabelCode, Rgb> const known = colors_of_stuff(belief);
   for (int y = 0; y < panel.height; ++y) {
     for (int x = 0; x < panel.width; ++x) {
       Pixel const p{x * labels.width() / panel.width, y * labels.height() / panel.height};
-      Rgb const color = label_color(labels[p]);
+      auto const stuff = is_stuff(labels[p]) ? known.find(labels[p]) : known.end();
+      Rgb const color = stuff != known.end() ? stuff->second : label_color(labels[p]);
       bool const has_depth = labels[p] != kNoDepth;
       canvas.set(panel, x, y,
                  has_depth ? mixed(color, depth_grey(frame.cloud_camera.z[p]), 0.25) : kBlack);
@@ -165,7 +179,7 @@ Grid<Rgb> draw_picture(Frame const& frame, Segmentation const& segmentation,
   Panel const bottom_left{0, height + 4, width, height};
   Panel const bottom_right{width + 4, height + 4, width, height};
   draw_color(frame, top_left, canvas);
-  draw_labels(frame, segmentation.labels, top_right, canvas);
+  draw_labels(frame, segmentation.labels, belief, top_right, canvas);
   Se3 const& camera = belief.T_world_camera;
   for (View const& view : {oblique_view(camera, bottom_left), map_view(camera, bottom_right)}) {
     BeliefPainter painter(view, canvas);

@@ -8,18 +8,20 @@
 namespace credo {
 
 /// A frame, its segmentation and the belief after it, side by side, in the thesis' colours (figures
-/// 3-2 to 4-9). Three panels of half the frame's size and one below:
-///  - the colour image; the segmentation over the grey depth, where each label has its colour
-///  - the belief in 3-D, seen obliquely from behind and above the camera: latest cloud cyan, floor
-///    red, walls pink with their segments drawn on the floor, stuff purple, yellow, green by id and
-///    paler as its probability falls, known objects as axes at their mean pose
-///  - the same from above, a line every metre
-/// Deterministic. A frame without colour shows its depth there; an empty one gives an empty
-/// picture.
+/// 3-2 to 4-9). Four panels, each half the frame wide and high:
+///  - top left the colour image, or the grey depth of a frame without colour
+///  - top right the segmentation over the grey depth, each label in its colour; stuff that the
+///    belief knows in the colour of its id
+///  - bottom left the belief in 3-D, seen obliquely from behind and above the camera: latest cloud
+///    cyan, floor red, walls pink with their segments drawn on the floor, stuff purple, yellow,
+///    green by id and paler as its probability falls, known objects as axes at their mean pose
+///  - bottom right the same from above, a line every metre, world x to the right
+/// Deterministic. A frame of less than 2x2 pixels gives an empty picture.
 Grid<Rgb> draw_picture(Frame const& frame, Segmentation const& segmentation,
                        BeliefState const& belief);
 
-/// The colour of a label in the segmentation's panel; black for no depth, cyan for unassigned.
+/// The colour of a label that the belief tells nothing about; black for no depth, cyan for
+/// unassigned.
 Rgb label_color(LabelCode label);
 
 /// The colour of a piece of stuff in the belief's panels, the same for its whole life.

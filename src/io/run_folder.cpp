@@ -1,7 +1,9 @@
 #include "io/run_folder.hpp"
 
-#include <cstdio>
+#include <algorithm>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "io/image.hpp"
@@ -29,21 +31,32 @@ void create_folder(fs::path const& folder) {
   }
 }
 
+/// NNNNNN.png: six digits or more, as image_path makes them.
+bool is_image_name(std::string const& name) {
+  std::string const ending = ".png";
+  return name.size() >= 6 + ending.size() && name.ends_with(ending) &&
+         name.find_first_not_of("0123456789") == name.size() - ending.size();
+}
+
 /// A folder of NNNNNN.png files of ours: stale ones of an earlier run would be taken for this
 /// one's.
 void fresh_image_folder(fs::path const& folder, bool wanted) {
-  std::error_code ignored;
-  if (fs::is_directory(folder)) {
-    for (auto const& entry : fs::directory_iterator(folder)) {
-      std::string const name = entry.path().filename().string();
-      if (name.ends_with(".png") &&
-          name.find_first_not_of("0123456789") == name.size() - std::string(".png").size()) {
-        fs::remove(entry.path(), ignored);
-      }
+  std::error_code error;
+  std::vector<fs::path> stale;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (is_image_name(entry->path().filename().string())) {
+      stale.push_back(entry->path());
     }
-    if (!wanted && fs::is_empty(folder, ignored)) {
-      fs::remove(folder, ignored);
+  }
+  for (fs::path const& path : stale) {
+    if (!fs::remove(path, error)) {
+      throw InputError(path.string() +
+                       ": an earlier run's image cannot be removed: " + error.message());
     }
+  }
+  if (!wanted && fs::is_directory(folder, error) && fs::is_empty(folder, error)) {
+    fs::remove(folder, error);
   }
   if (wanted) {
     create_folder(folder);
@@ -51,9 +64,10 @@ void fresh_image_folder(fs::path const& folder, bool wanted) {
 }
 
 fs::path image_path(fs::path const& folder, FrameIndex frame) {
-  char name[32];
-  std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(number(frame)));
-  return folder / name;
+  constexpr std::size_t kDigits = 6;
+  std::string const digits = std::to_string(number(frame));
+  std::string const zeros(kDigits - std::min(kDigits, digits.size()), '0');
+  return folder / (zeros + digits + ".png");
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "core/error.hpp"
@@ -13,6 +15,7 @@ namespace {
 
 constexpr std::int64_t kMaxBracketNs = 100'000'000;
 constexpr std::int64_t kMaxNearestNs = 20'000'000;
+constexpr double kMaxStampS = 9e9;
 
 /// The numbers of a text; throws std::invalid_argument at the first word that is none. NaN and inf
 /// are numbers here: what they are part of refuses them with a better text.
@@ -20,9 +23,9 @@ std::vector<double> numbers_in(std::string const& text) {
   std::istringstream words(text);
   std::vector<double> numbers;
   for (std::string word; words >> word;) {
-    std::size_t used = 0;
-    double const value = std::stod(word, &used);
-    if (used != word.size()) {
+    char* end = nullptr;
+    double const value = std::strtod(word.c_str(), &end);
+    if (end != word.c_str() + word.size()) {
       throw std::invalid_argument("'" + word + "' is no number");
     }
     numbers.push_back(value);
@@ -40,10 +43,17 @@ Se3 from_rows(std::vector<double> const& numbers) {
 
 }  // namespace
 
+std::optional<std::int64_t> stamp_from_seconds(double stamp_s) {
+  if (!(std::abs(stamp_s) <= kMaxStampS)) {
+    return std::nullopt;
+  }
+  return static_cast<std::int64_t>(std::llround(stamp_s * 1e9));
+}
+
 Se3 read_pose(std::filesystem::path const& path) {
   std::ifstream file(path);
   if (!file) {
-    throw InputError(path.string() + ": cannot be read");
+    throw InputError(path.string() + ": pose cannot be read");
   }
   std::ostringstream text;
   text << file.rdbuf();
@@ -99,8 +109,11 @@ void Trajectory::add_line(std::vector<double> const& numbers) {
       throw std::invalid_argument("pose has a number that is not finite");
     }
   }
-  auto const stamp_ns = static_cast<std::int64_t>(std::llround(numbers[0] * 1e9));
-  if (!stamps_ns_.empty() && stamp_ns <= stamps_ns_.back()) {
+  std::optional<std::int64_t> const stamp_ns = stamp_from_seconds(numbers[0]);
+  if (!stamp_ns) {
+    throw std::invalid_argument("stamp is no time in seconds");
+  }
+  if (!stamps_ns_.empty() && *stamp_ns <= stamps_ns_.back()) {
     throw std::invalid_argument("stamp does not rise");
   }
   Eigen::Quaterniond const rotation(numbers[7], numbers[4], numbers[5], numbers[6]);
@@ -108,7 +121,7 @@ void Trajectory::add_line(std::vector<double> const& numbers) {
     throw std::invalid_argument("quaternion is not of unit length");
   }
   poses_.emplace_back(rotation, Eigen::Vector3d(numbers[1], numbers[2], numbers[3]));
-  stamps_ns_.push_back(stamp_ns);
+  stamps_ns_.push_back(*stamp_ns);
 }
 
 std::optional<Se3> Trajectory::at(FrameIndex index, std::int64_t stamp_ns) const {

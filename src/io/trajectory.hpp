@@ -10,6 +10,10 @@
 
 namespace credo {
 
+/// A stamp in seconds, as recordings write it; none where it is no time: NaN, or beyond 285 years,
+/// which no int64_t of nanoseconds holds.
+std::optional<std::int64_t> stamp_from_seconds(double stamp_s);
+
 /// One camera pose (camera to source) from a file of 16 numbers, 4x4 row by row. Throws InputError
 /// for any other count and for what is no rigid motion.
 Se3 read_pose(std::filesystem::path const& path);

@@ -14,15 +14,18 @@ namespace credo {
 struct RenderedView {
   /// Depth along the optical axis [m]; 0 where nothing is in range.
   Grid<float> depth_m;
+  /// Lit, with no shadows; dark where nothing is hit.
   Grid<Rgb> color;
   /// Position in Scene::things; -1 where nothing is hit, in range or not.
   Grid<std::int32_t> thing;
 };
 
-/// The geometry of a scene, built once (Embree). Boxes, tables and spheres are exact; cylinders are
-/// prisms of 96 sides, at most 0.06 % of their radius inside the true surface.
+/// The bodies of a scene in a tree, built once (Embree). Each ray is followed into the bodies'
+/// equations in doubles: depth is exact to float precision and the same on every machine. A body
+/// that the camera is inside of is not seen.
 class RayCaster {
 public:
+  /// Throws InputError for a scene that check_scene refuses.
   explicit RayCaster(Scene const& scene);
   RayCaster(RayCaster const&) = delete;
   RayCaster& operator=(RayCaster const&) = delete;

@@ -130,7 +130,7 @@ fs::path find_scene(std::string const& name_or_file) {
     return name_or_file;
   }
   fs::path const folder = CREDO_SCENES_DIR;
-  fs::path const named = folder / (name_or_file + ".yaml");
+  fs::path named = folder / (name_or_file + ".yaml");
   if (name_or_file.find('/') == std::string::npos && fs::is_regular_file(named)) {
     return named;
   }

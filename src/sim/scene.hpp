@@ -17,7 +17,7 @@ enum class SceneShape : std::uint8_t {
 };
 
 /// What a thing is to the belief.
-enum class SceneKind : std::uint8_t { kFloor, kWall, kObject, kStuff };
+enum class SceneKind : std::uint8_t { kGround, kWall, kObject, kStuff };
 
 /// One thing of a scene. It stands on the centre of its base, z up, before it is turned and moved.
 struct SceneThing {

@@ -78,6 +78,15 @@ TEST(AlignIcp, MovesASinglePointWithoutTurningIt) {
       1e-6);
 }
 
+TEST(AlignIcp, PairsWithTheFirstOfEquallyNearPoints) {
+  Points const source = {{0, 0, 0}};
+  auto const right = align_icp(source, Points{{1, 0, 0}, {-1, 0, 0}}, {});
+  auto const left = align_icp(source, Points{{-1, 0, 0}, {1, 0, 0}}, {});
+  ASSERT_TRUE(right && left);
+  EXPECT_EQ(right->T_target_source.translation(), Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(left->T_target_source.translation(), Eigen::Vector3d(-1, 0, 0));
+}
+
 TEST(AlignIcp, TurnsPointsOnALineByTheLeastRotation) {
   Points source;
   for (int i = 0; i < 20; ++i) {

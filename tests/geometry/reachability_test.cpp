@@ -233,13 +233,13 @@ TEST(ConnectedComponents, IsTheLiteralAlgorithmOnRooms) {
 
 TEST(ConnectedComponents, NeedsNoProjection) {
   Random random(3);
-  Scene const scene = room_scene(random, 160, 120);
+  Scene const scene = room_scene(random, 112, 84);
   std::vector<std::size_t> source(scene.cloud.size());
 
   // Registered to another camera: pixels far from where this camera would see them.
   for (std::size_t i = 0; i < source.size(); ++i) {
     Pixel const pixel = scene.active.pixel(i);
-    source[i] = scene.active.index({(pixel.u + 7 * (pixel.v % 9)) % 160, 119 - pixel.v});
+    source[i] = scene.active.index({(pixel.u + 7 * (pixel.v % 9)) % 112, 83 - pixel.v});
   }
   expect_literal(permuted(scene, source));
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -114,6 +115,36 @@ TEST(Dependencies, LibrariesStayInTheirRooms) {
       EXPECT_THAT(rule.rooms, testing::Contains(include.file.begin()->string())) << include.file;
       EXPECT_TRUE(rule.headers || include.file.extension() == ".cpp")
           << include.file << " shows " << include.target << " to whoever includes it";
+    }
+  }
+}
+
+// A suite whose folder no list names is never built, and nobody misses it.
+TEST(Dependencies, EverySuiteIsBuilt) {
+  fs::path const tests = fs::path(CREDO_SOURCE_DIR) / "tests";
+  for (auto const& entry : fs::recursive_directory_iterator(tests)) {
+    fs::path const folder = entry.path().parent_path();
+    if (entry.path().filename() == "CMakeLists.txt" && folder != tests) {
+      std::ifstream file(folder.parent_path() / "CMakeLists.txt");
+      std::string const list(std::istreambuf_iterator<char>(file), {});
+      EXPECT_THAT(list, testing::ContainsRegex("[ (]" + folder.filename().string() + "[ )]"));
+    }
+    if (entry.path().filename().string().ends_with("_test.cpp")) {
+      EXPECT_TRUE(fs::exists(folder / "CMakeLists.txt")) << entry.path();
+    }
+  }
+}
+
+TEST(Dependencies, EverySourceOfASuiteIsBuilt) {
+  for (auto const& entry : fs::recursive_directory_iterator(fs::path(CREDO_SOURCE_DIR) / "tests")) {
+    std::string const name = entry.path().filename().string();
+    if (name.ends_with("_test.cpp")) {
+      std::ifstream file(entry.path().parent_path() / "CMakeLists.txt");
+      std::string const list(std::istreambuf_iterator<char>(file), {});
+      std::string const stem = name.substr(0, name.size() - std::string("_test.cpp").size());
+      // Some lists name the subject, and make the file's name of it.
+      EXPECT_THAT(list, testing::ContainsRegex("[ (]" + stem + "(_test.cpp)?[ )\n]"))
+          << entry.path();
     }
   }
 }

@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iomanip>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "stages/capture/floor_search.hpp"
@@ -17,15 +19,19 @@ Eigen::Quaterniond rotation_to_z(Eigen::Vector3d const& up) {
   return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
 }
 
+std::string two_decimals(double value) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << value;
+  return text.str();
+}
+
 WorldLevel level_by_floor(Plane const& floor_source, FrameIndex frame, double height_m) {
   WorldLevel level;
   // The plane normal . p = offset becomes z = offset once the normal is turned to +z.
   level.T_world_source = Se3(rotation_to_z(floor_source.normal), {0, 0, -floor_source.offset_m});
   level.floor_found = true;
-  char text[120];
-  std::snprintf(text, sizeof text, "levelled by the floor in frame %lld, %.2f m below the camera",
-                static_cast<long long>(number(frame)), height_m);
-  level.note = text;
+  level.note = "levelled by the floor in frame " + std::to_string(number(frame)) + ", " +
+               two_decimals(height_m) + " m below the camera";
   return level;
 }
 
@@ -40,12 +46,10 @@ WorldLevel level_by_config(Frame const& first, PoseConfig const& config) {
   double const camera_z = (turn * first.T_source_camera.translation()).z();
   WorldLevel level;
   level.T_world_source = Se3(turn, {0, 0, config.camera_height_m - camera_z});
-  char text[220];
-  std::snprintf(text, sizeof text,
-                "no floor in view: taking the first camera as %.2f m up, pitch %.2f rad, roll %.2f "
-                "rad (pose.camera_*); nothing will be called floor",
-                config.camera_height_m, pitch, roll);
-  level.note = text;
+  level.note = "no floor in view: taking the first camera as " +
+               two_decimals(config.camera_height_m) + " m up, pitch " + two_decimals(pitch) +
+               " rad, roll " + two_decimals(roll) +
+               " rad (pose.camera_*); nothing will be called floor";
   return level;
 }
 

@@ -5,17 +5,18 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "geometry/reachability.hpp"
-#include "geometry/thinning.hpp"
 #include "stages/clustering/label_spreading.hpp"
+#include "stages/clustering/stuff_clusters.hpp"
 
 namespace credo {
 namespace {
 
-using Components = Grid<std::int32_t>;
+using Runs = std::vector<ComponentRun>;
 
 void check(Frame const& frame, NormalMap const& normals, Segmentation const& segmentation) {
   Grid<float> const& depth = frame.cloud_camera.z;
@@ -30,26 +31,62 @@ void check(Frame const& frame, NormalMap const& normals, Segmentation const& seg
   }
 }
 
-Components unexplained_components(Frame const& frame, NormalMap const& normals,
-                                  LabelMap const& labels, ClusteringConfig const& config) {
-  Grid<std::uint8_t> unexplained(labels.width(), labels.height());
-  std::transform(labels.begin(), labels.end(), unexplained.begin(),
-                 [](LabelCode label) { return static_cast<std::uint8_t>(label == kUnassigned); });
-  return connected_components(frame.cloud_camera, normals, unexplained,
-                              {.radius_m = static_cast<float>(config.radius_m),
-                               .max_angle_rad = static_cast<float>(config.max_angle_rad)});
+// Of the pixels that nothing explains and that belong to this surface, 0 for none.
+Runs components_on(std::uint8_t surface, Frame const& frame, NormalMap const& normals,
+                   Segmentation const& segmentation, ClusteringConfig const& config) {
+  LabelMap const& labels = segmentation.labels;
+  Grid<std::uint8_t> const& surfaces = segmentation.surfaces;
+  Grid<std::uint8_t> active(labels.width(), labels.height());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    bool const here = surfaces.empty() || surfaces[i] == surface;
+    active[i] = static_cast<std::uint8_t>(labels[i] == kUnassigned && here);
+  }
+  return component_runs(frame.cloud_camera, normals, active,
+                        {.radius_m = static_cast<float>(config.radius_m),
+                         .max_angle_rad = static_cast<float>(config.max_angle_rad)});
 }
 
-std::vector<std::size_t> sizes_of(Components const& components) {
-  std::vector<std::size_t> sizes;
-  for (std::int32_t const component : components) {
-    if (component != kNoComponent) {
-      auto const id = static_cast<std::size_t>(component);
-      if (id == sizes.size()) {
-        sizes.push_back(0);
-      }
-      ++sizes[id];
+// Numbers components from 0 in raster order of their first pixels.
+void number_in_raster_order(Runs& runs) {
+  std::ranges::sort(runs, {}, [](ComponentRun const& run) { return std::pair(run.v, run.begin); });
+  std::unordered_map<std::int32_t, std::int32_t> numbers;
+  for (ComponentRun& run : runs) {
+    auto const next = static_cast<std::int32_t>(numbers.size());
+    run.component = numbers.try_emplace(run.component, next).first->second;
+  }
+}
+
+Runs unexplained_components(Frame const& frame, NormalMap const& normals,
+                            Segmentation const& segmentation, ClusteringConfig const& config) {
+  Runs runs = components_on(0, frame, normals, segmentation, config);
+  Grid<std::uint8_t> const& surfaces = segmentation.surfaces;
+  int const count = surfaces.empty() ? 0 : *std::ranges::max_element(surfaces);
+  std::int32_t offset = 0;
+  for (int surface = 1; surface <= count; ++surface) {
+    for (ComponentRun const& run : runs) {
+      offset = std::max(offset, run.component + 1);
     }
+    for (ComponentRun run :
+         components_on(static_cast<std::uint8_t>(surface), frame, normals, segmentation, config)) {
+      run.component += offset;
+      runs.push_back(run);
+    }
+  }
+  if (count > 0) {
+    number_in_raster_order(runs);
+  }
+  return runs;
+}
+
+// Pixels of each component.
+std::vector<std::size_t> sizes_of(Runs const& runs) {
+  std::vector<std::size_t> sizes;
+  for (ComponentRun const& run : runs) {
+    auto const id = static_cast<std::size_t>(run.component);
+    if (id == sizes.size()) {
+      sizes.push_back(0);
+    }
+    sizes[id] += static_cast<std::size_t>(run.end - run.begin);
   }
   return sizes;
 }
@@ -71,48 +108,6 @@ std::vector<LabelCode> labels_of(std::vector<std::size_t> const& sizes, std::siz
     labels[kept[i]] = static_cast<LabelCode>(kFirstStuff + i);
   }
   return labels;
-}
-
-// World points of each label of stuff, in raster order.
-std::vector<PointList> points_by_label(OrganizedCloud const& cloud, LabelMap const& labels,
-                                       Se3 const& T_world_camera) {
-  std::vector<std::size_t> counts;
-  for (LabelCode const label : labels) {
-    if (is_stuff(label)) {
-      std::size_t const i = label - kFirstStuff;
-      counts.resize(std::max(counts.size(), i + 1));
-      ++counts[i];
-    }
-  }
-  std::vector<PointList> points(counts.size());
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    points[i].reserve(counts[i]);
-  }
-  Eigen::Matrix3f const rotation = T_world_camera.rotation().toRotationMatrix().cast<float>();
-  Eigen::Vector3f const translation = T_world_camera.translation().cast<float>();
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (is_stuff(labels[i])) {
-      points[labels[i] - kFirstStuff].emplace_back(rotation * cloud.at(i) + translation);
-    }
-  }
-  return points;
-}
-
-StuffCluster cluster_of(PointList const& points_world, LabelCode label, float spacing_m) {
-  StuffCluster cluster;
-  cluster.label = label;
-  cluster.pixel_count = points_world.size();
-  cluster.points_world = thin_points(points_world, spacing_m);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (Eigen::Vector3f const& point : points_world) {
-    sum += point.cast<double>();
-    cluster.bounds_world.extend(point);
-  }
-  // Rounding must not push the centroid of a flat cluster out of its bounds.
-  Eigen::Vector3f const mean = (sum / static_cast<double>(points_world.size())).cast<float>();
-  cluster.centroid_world =
-      mean.cwiseMax(cluster.bounds_world.min()).cwiseMin(cluster.bounds_world.max());
-  return cluster;
 }
 
 }  // namespace
@@ -143,21 +138,17 @@ Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals, Segment
                            ClusteringConfig const& config) {
   check(frame, normals, segmentation);
   LabelMap& labels = segmentation.labels;
-  Components const components = unexplained_components(frame, normals, labels, config);
+  Runs const runs = unexplained_components(frame, normals, segmentation, config);
   std::vector<LabelCode> const label =
-      labels_of(sizes_of(components), static_cast<std::size_t>(std::max(config.min_pixels, 1)));
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (components[i] != kNoComponent) {
-      labels[i] = label[static_cast<std::size_t>(components[i])];
-    }
+      labels_of(sizes_of(runs), static_cast<std::size_t>(std::max(config.min_pixels, 1)));
+  for (ComponentRun const& run : runs) {
+    std::fill_n(labels.row(run.v).begin() + run.begin, run.end - run.begin,
+                label[static_cast<std::size_t>(run.component)]);
   }
   labels = spread_labels(frame.cloud_camera, normals, std::move(labels),
                          static_cast<float>(config.radius_m), config.spread_px);
-  auto const points = points_by_label(frame.cloud_camera, labels, segmentation.T_world_camera);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    segmentation.stuff.push_back(cluster_of(points[i], static_cast<LabelCode>(kFirstStuff + i),
-                                            static_cast<float>(config.point_spacing_m)));
-  }
+  segmentation.stuff = stuff_clusters(frame.cloud_camera, labels, segmentation.T_world_camera,
+                                      static_cast<float>(config.point_spacing_m));
   return segmentation;
 }
 

@@ -7,14 +7,15 @@
 
 namespace credo {
 
-/// Stuff (thesis 3.3 and algorithm 3). The defaults are the thesis' numbers, marked T.
+/// Stuff (thesis 3.3 and algorithm 3); the thesis' numbers are marked T.
 struct ClusteringConfig {
   /// Two points join one cluster within this distance (T: 0.05) ...
   double radius_m = 0.05;
   /// ... if their normals differ by less than this (T: 0.3).
   double max_angle_rad = 0.3;
-  /// Clusters of fewer points with a normal are ignored; their pixels stay unassigned (T: 25).
-  int min_pixels = 25;
+  /// Clusters of fewer points with a normal are ignored; their pixels stay unassigned (T: 25, where
+  /// a Kinect leaves dozens of scraps in every frame).
+  int min_pixels = 100;
   /// Pixels without a normal take a label from no farther than this in the image; see
   /// spread_labels.
   int spread_px = 5;
@@ -24,7 +25,8 @@ struct ClusteringConfig {
 FieldList fields(ClusteringConfig& config);
 
 /// Clusters what nothing else has explained: the pixels of `frame` that `segmentation` leaves
-/// kUnassigned and that have a normal (camera frame). Each cluster becomes a StuffCluster and gets
+/// kUnassigned and that have a normal (camera frame). Clusters do not join across the borders of
+/// `segmentation.surfaces`, where those are told. Each cluster becomes a StuffCluster and gets
 /// a label, kFirstStuff + i by the first pixel in raster order; should there be more than
 /// kMaxStuff, the largest stay. Then pixels without a normal take the label of what they touch, be
 /// it stuff, floor, wall or object.

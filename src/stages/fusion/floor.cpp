@@ -1,5 +1,6 @@
 #include "stages/fusion/floor.hpp"
 
+#include <Eigen/LU>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -10,15 +11,31 @@
 namespace credo {
 namespace {
 
-/// z of the plane above or below a point of the floor plan.
-double height_at(Plane const& plane, Eigen::Vector3d const& point) {
-  return (plane.offset_m - plane.normal.head<2>().dot(point.head<2>())) / plane.normal.z();
+/// z gained along x and along y.
+Eigen::Vector2d slope_of(Eigen::Vector3d const& normal) {
+  return -normal.head<2>() / normal.z();
 }
 
-Plane plane_of(FloorBelief const& floor) {
-  Eigen::Vector3d const centroid = centroid_of(*floor.points);
-  return {floor.normal,
-          floor.normal.dot(Eigen::Vector3d(centroid.x(), centroid.y(), floor.height_m))};
+Eigen::Vector3d normal_of(Eigen::Vector2d const& slope) {
+  return Eigen::Vector3d(-slope.x(), -slope.y(), 1.0).normalized();
+}
+
+/// The slope of the least-squares plane through the points: across places that lie far apart they
+/// tell it better than any single look, whose small error in tilt grows with distance. Where they
+/// form a strip narrower than a few hand's breadths, `observed` decides instead (ridge regression
+/// towards it).
+Eigen::Vector2d fitted_slope(PointList const& points, Eigen::Vector3d const& centroid,
+                             Eigen::Vector2d const& observed) {
+  constexpr double kStripM = 0.3;
+  Eigen::Matrix2d level = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d rise = Eigen::Vector2d::Zero();
+  for (Eigen::Vector3f const& point : points) {
+    Eigen::Vector3d const p = point.cast<double>() - centroid;
+    level += p.head<2>() * p.head<2>().transpose();
+    rise += p.z() * p.head<2>();
+  }
+  double const ridge = static_cast<double>(points.size()) * kStripM * kStripM;
+  return (level + ridge * Eigen::Matrix2d::Identity()).inverse() * (rise + ridge * observed);
 }
 
 }  // namespace
@@ -35,16 +52,19 @@ std::optional<FloorBelief> fused_floor(std::optional<FloorBelief> known,
   if (points.empty()) {
     return known;
   }
-  Plane plane = seen->plane_world;
   FloorBelief floor;
+  Eigen::Vector2d observed = slope_of(seen->plane_world.normal);
   if (known) {
-    plane = weighted_mean(plane_of(*known), static_cast<double>(known->points->size()),
-                          seen->plane_world, static_cast<double>(points.size()));
+    auto const weight_known = static_cast<double>(known->points->size());
+    auto const weight_seen = static_cast<double>(points.size());
+    observed = (weight_known * slope_of(known->normal) + weight_seen * observed) /
+               (weight_known + weight_seen);
     floor = *std::move(known);
   }
   floor.points = grown_points(floor.points, points, spacing_m, config.max_points);
-  floor.normal = plane.normal;
-  floor.height_m = height_at(plane, centroid_of(*floor.points));
+  Eigen::Vector3d const centroid = centroid_of(*floor.points);
+  floor.normal = normal_of(fitted_slope(*floor.points, centroid, observed));
+  floor.height_m = centroid.z();
   return floor;
 }
 

@@ -83,18 +83,16 @@ std::optional<double> score(Sample const& source, Sample const& target,
                                           : alignment->rms_m * alignment->rms_m;
 }
 
-void align(std::vector<Pair>& pairs, std::vector<Sample> const& known,
-           std::vector<Sample> const& seen, StuffFusionConfig const& config) {
-  // Isolated: a thread that waits here must not take up another frame's work.
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
-      Pair& pair = pairs[i];
-      pair.seen_to_known = score(seen[pair.seen], known[pair.known], config);
-      if (pair.seen_to_known) {
-        pair.known_to_seen = score(known[pair.known], seen[pair.seen], config);
-      }
-    });
-  });
+/// Both ways, or none. The larger cluster goes first: where the two are not the same thing, it is
+/// the one that does not fit.
+void align_pair(Pair& pair, Sample const& known, Sample const& seen, bool known_first,
+                StuffFusionConfig const& config) {
+  auto& first = known_first ? pair.known_to_seen : pair.seen_to_known;
+  auto& second = known_first ? pair.seen_to_known : pair.known_to_seen;
+  first = known_first ? score(known, seen, config) : score(seen, known, config);
+  if (first) {
+    second = known_first ? score(seen, known, config) : score(known, seen, config);
+  }
 }
 
 }  // namespace
@@ -114,7 +112,15 @@ std::vector<std::optional<std::size_t>> match_clusters(std::span<StuffCluster co
       seen_samples[pair.seen] = sampled(seen[pair.seen], config);
     }
   }
-  align(pairs, known_samples, seen_samples, config);
+  // Isolated: a thread that waits here must not take up another frame's work.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
+      Pair& pair = pairs[i];
+      bool const known_first = known[pair.known]->bounds_world.diagonal().squaredNorm() >
+                               seen[pair.seen].bounds_world.diagonal().squaredNorm();
+      align_pair(pair, known_samples[pair.known], seen_samples[pair.seen], known_first, config);
+    });
+  });
 
   std::vector<Pair const*> best_for_known(known.size(), nullptr);
   std::vector<Pair const*> best_for_seen(seen.size(), nullptr);

@@ -10,16 +10,41 @@
 namespace credo::normals {
 namespace {
 
+constexpr int kRowsPerTask = 16;
 // The farthest sample of a window, plus the blocks that it averages.
 constexpr int kMargin = 4 * kMaxTaps + 4;
 
+float const* padded_row(Grid<float> const& depth_m, int v, std::vector<float>& space) {
+  std::size_t const padded = 2 * padded_lanes(static_cast<std::size_t>(depth_m.width() + 1) / 2);
+  if (v < depth_m.height() && depth_m.row(v).size() == padded) {
+    return depth_m.row(v).data();
+  }
+  space.assign(padded, kNaN);
+  if (v < depth_m.height()) {
+    std::ranges::copy(depth_m.row(v), space.begin());
+  }
+  return space.data();
+}
+
 }  // namespace
 
-PaddedImage::PaddedImage(int width, int height, int margin, float value)
+PaddedImage::PaddedImage(int width, int height, int margin)
     : margin_(margin),
       stride_(static_cast<std::ptrdiff_t>(padded_lanes(static_cast<std::size_t>(width))) +
               2 * margin),
-      data_(static_cast<std::size_t>(stride_ * (height + 2 * margin)), value) {}
+      data_(std::make_unique_for_overwrite<float[]>(
+          static_cast<std::size_t>(stride_ * (height + 2 * margin)))) {
+  // Above, then to the right of one row and left of the next together, then below.
+  std::fill(data_.get(), row(0), kNothing);
+  for (int v = 0; v < height; ++v) {
+    std::fill_n(row(v + 1) - 2 * margin, 2 * margin, kNothing);
+  }
+  std::fill_n(row(height), stride_ * margin - margin, kNothing);
+}
+
+void PaddedImage::end_row(int v, int width) {
+  std::fill(row(v) + width, row(v) + stride_ - 2 * margin_, kNothing);
+}
 
 LevelRows BlockImage::level_rows(int v) const {
   LevelRows rows;
@@ -30,31 +55,25 @@ LevelRows BlockImage::level_rows(int v) const {
   return rows;
 }
 
-void copy_depth_row(Grid<float> const& depth_m, int v, std::vector<float>& out) {
-  out.assign(2 * padded_lanes(static_cast<std::size_t>(depth_m.width() + 1) / 2), kNaN);
-  if (v < depth_m.height()) {
-    std::ranges::copy(depth_m.row(v), out.begin());
-  }
+PixelRows pixel_rows(Grid<float> const& depth_m, int block_v, PixelRowsSpace& space) {
+  return {padded_row(depth_m, 2 * block_v, space[0]),
+          padded_row(depth_m, 2 * block_v + 1, space[1])};
 }
 
 BlockImage make_block_image(Grid<float> const& depth_m, DepthTolerance tolerance) {
   BlockImage image;
   image.width = (depth_m.width() + 1) / 2;
   image.height = (depth_m.height() + 1) / 2;
-  image.levels.fill(PaddedImage(image.width, image.height, kMargin, kNothing));
-  image.far_w = PaddedImage(image.width, image.height, 0, kNothing);
-  image.near_limit_m = PaddedImage(image.width, image.height, 0, 0.0F);
-  image.far_limit_m = image.near_limit_m;
+  for (PaddedImage& level : image.levels) {
+    level = PaddedImage(image.width, image.height, kMargin);
+  }
   auto const count = static_cast<std::size_t>(image.width);
-
-  constexpr int kRowsPerTask = 16;
-  tbb::parallel_for(tbb::blocked_range<int>(0, image.height, kRowsPerTask), [&](auto const& rows) {
-    std::vector<float> top;
-    std::vector<float> bottom;
+  tbb::blocked_range<int> const all_rows(0, image.height, kRowsPerTask);
+  tbb::parallel_for(all_rows, [&](auto const& rows) {
+    PixelRowsSpace space;
     for (int v = rows.begin(); v < rows.end(); ++v) {
-      copy_depth_row(depth_m, 2 * v, top);
-      copy_depth_row(depth_m, 2 * v + 1, bottom);
-      make_blocks(top.data(), bottom.data(), count, tolerance, image.row(v));
+      make_blocks(pixel_rows(depth_m, v, space), count, tolerance, image.levels[0].row(v));
+      image.levels[0].end_row(v, image.width);
     }
   });
   for (std::size_t level = 1; level < kLevels; ++level) {
@@ -62,15 +81,13 @@ BlockImage make_block_image(Grid<float> const& depth_m, DepthTolerance tolerance
     int const right = static_cast<int>(level) - 1;
     PaddedImage const& finer = image.levels[level - 1];
     PaddedImage& coarser = image.levels[level];
-    tbb::parallel_for(
-        tbb::blocked_range<int>(0, image.height, kRowsPerTask), [&](auto const& rows) {
-          for (int v = rows.begin(); v < rows.end(); ++v) {
-            merge_blocks(finer.row(v - 1), finer.row(v + right), -1, right, count, tolerance,
-                         coarser.row(v));
-            // Windows end where the image ends, however far the last vector reached.
-            std::fill(coarser.row(v) + count, coarser.row(v) + padded_lanes(count), kNothing);
-          }
-        });
+    tbb::parallel_for(all_rows, [&](auto const& rows) {
+      for (int v = rows.begin(); v < rows.end(); ++v) {
+        merge_blocks(finer.row(v - 1), finer.row(v + right), -1, right, count, tolerance,
+                     coarser.row(v));
+        coarser.end_row(v, image.width);
+      }
+    });
   }
   return image;
 }

@@ -3,7 +3,7 @@
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "stages/normals/block_kernels.cpp"
+#define HWY_TARGET_INCLUDE "stages/normals/block_kernels.cpp"  // NOLINT(*-macro-usage): Highway
 #include <hwy/foreach_target.h>
 //
 #include <hwy/highway.h>
@@ -17,8 +17,10 @@ namespace credo::normals::HWY_NAMESPACE {
 constexpr float kShallowest = 1e-3F;
 constexpr float kDeepest = 1e6F;
 
+using Four = std::array<V, 4>;
+
 /// Mean of those of four values that are members; kNothing where none is.
-V mean_of(std::array<V, 4> const& value, std::array<M, 4> const& member) {
+HWY_INLINE V mean_of(Four const& value, std::array<M, 4> const& member) {
   auto const pick = [&](std::size_t i) { return hn::IfThenElseZero(member[i], value[i]); };
   auto const one = [&](std::size_t i) { return hn::IfThenElseZero(member[i], constant(1.0F)); };
   V const sum = (pick(0) + pick(1)) + (pick(2) + pick(3));
@@ -26,50 +28,63 @@ V mean_of(std::array<V, 4> const& value, std::array<M, 4> const& member) {
   return hn::IfThenElse(count > hn::Zero(D()), sum / count, constant(kNothing));
 }
 
-/// The mean inverse depth of a surface, and the depth up to which it reaches; kNothing and 0 where
-/// there is none.
-struct Surface {
-  V w;
-  V limit_m;
-};
+/// The depths of a vector of blocks, kDeepest where invalid.
+HWY_INLINE Four load_blocks(PixelRows const& pixels, std::size_t u) {
+  D const d;
+  V const deepest = constant(kDeepest);
+  Four z;
+  hn::LoadInterleaved2(d, pixels.top_m + 2 * u, z[0], z[1]);
+  hn::LoadInterleaved2(d, pixels.bottom_m + 2 * u, z[2], z[3]);
+  for (V& depth : z) {
+    M const valid = hn::And(depth >= constant(kShallowest), depth < deepest);
+    depth = hn::IfThenElse(valid, depth, deepest);
+  }
+  return z;
+}
 
-/// The surface that begins at the nearest of four depths; kDeepest = invalid.
-Surface nearest_surface(std::array<V, 4> const& depth_m, DepthTolerance tolerance) {
+/// Up to which depth the surface reaches that begins at the nearest of four; 0 where there is none.
+HWY_INLINE V limit_of(Four const& depth_m, DepthTolerance tolerance) {
   V const least = hn::Min(hn::Min(depth_m[0], depth_m[1]), hn::Min(depth_m[2], depth_m[3]));
   V const reach =
       least + (constant(tolerance.jump_m) + constant(tolerance.noise_per_m) * least * least);
-  V const limit =
-      hn::IfThenElseZero(least < constant(kDeepest), hn::Min(reach, constant(0.999F * kDeepest)));
-  std::array<V, 4> w;
+  return hn::IfThenElseZero(least < constant(kDeepest),
+                            hn::Min(reach, constant(0.999F * kDeepest)));
+}
+
+/// Mean inverse depth of the surface that reaches to a depth.
+HWY_INLINE V surface_w(Four const& depth_m, V limit_m) {
+  Four w;
   std::array<M, 4> member;
   for (std::size_t i = 0; i < 4; ++i) {
     w[i] = constant(1.0F) / depth_m[i];
-    member[i] = depth_m[i] <= limit;
+    member[i] = depth_m[i] <= limit_m;
   }
-  return {mean_of(w, member), limit};
+  return mean_of(w, member);
 }
 
-void make_blocks_lanes(float const* top_m, float const* bottom_m, std::size_t count,
-                       DepthTolerance tolerance, BlockRow const& out) {
+void make_blocks_lanes(PixelRows const& pixels, std::size_t count, DepthTolerance tolerance,
+                       float* near_w) {
   D const d;
-  V const deepest = constant(kDeepest);
   for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
-    std::array<V, 4> z;
-    hn::LoadInterleaved2(d, top_m + 2 * u, z[0], z[1]);
-    hn::LoadInterleaved2(d, bottom_m + 2 * u, z[2], z[3]);
+    Four const z = load_blocks(pixels, u);
+    hn::StoreU(surface_w(z, limit_of(z, tolerance)), d, near_w + u);
+  }
+}
+
+void split_blocks_lanes(PixelRows const& pixels, std::size_t count, DepthTolerance tolerance,
+                        SplitRow const& out) {
+  D const d;
+  for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
+    Four z = load_blocks(pixels, u);
+    V const near_limit = limit_of(z, tolerance);
     for (V& depth : z) {
-      M const valid = hn::And(depth >= constant(kShallowest), depth < deepest);
-      depth = hn::IfThenElse(valid, depth, deepest);
+      depth = hn::IfThenElse(depth <= near_limit, constant(kDeepest), depth);
     }
-    Surface const near = nearest_surface(z, tolerance);
-    for (V& depth : z) {
-      depth = hn::IfThenElse(depth <= near.limit_m, deepest, depth);
-    }
-    Surface const far = nearest_surface(z, tolerance);
-    hn::StoreU(near.w, d, out.near_w + u);
-    hn::StoreU(near.limit_m, d, out.near_limit_m + u);
-    hn::StoreU(far.w, d, out.far_w + u);
-    hn::StoreU(far.limit_m, d, out.far_limit_m + u);
+    V const far_limit = limit_of(z, tolerance);
+    bool const none = hn::AllFalse(d, far_limit > hn::Zero(d));
+    hn::StoreU(near_limit, d, out.near_limit_m + u);
+    hn::StoreU(far_limit, d, out.far_limit_m + u);
+    hn::StoreU(none ? constant(kNothing) : surface_w(z, far_limit), d, out.far_w + u);
   }
 }
 
@@ -87,7 +102,7 @@ void merge_blocks_lanes(float const* top, float const* bottom, int left, int rig
   }
 }
 
-void spread_normals_lanes(float const* depth_m, BlockRow const& blocks, ConstVectorRow const& near,
+void spread_normals_lanes(float const* depth_m, SplitRow const& blocks, ConstVectorRow const& near,
                           ConstVectorRow const& far, std::size_t count, VectorRow const& out) {
   D const d;
   V const nan = constant(std::numeric_limits<float>::quiet_NaN());
@@ -119,12 +134,18 @@ HWY_AFTER_NAMESPACE();
 namespace credo::normals {
 
 HWY_EXPORT(make_blocks_lanes);
+HWY_EXPORT(split_blocks_lanes);
 HWY_EXPORT(merge_blocks_lanes);
 HWY_EXPORT(spread_normals_lanes);
 
-void make_blocks(float const* top_m, float const* bottom_m, std::size_t count,
-                 DepthTolerance tolerance, BlockRow const& out) {
-  HWY_DYNAMIC_DISPATCH(make_blocks_lanes)(top_m, bottom_m, count, tolerance, out);
+void make_blocks(PixelRows const& pixels, std::size_t count, DepthTolerance tolerance,
+                 float* near_w) {
+  HWY_DYNAMIC_DISPATCH(make_blocks_lanes)(pixels, count, tolerance, near_w);
+}
+
+void split_blocks(PixelRows const& pixels, std::size_t count, DepthTolerance tolerance,
+                  SplitRow const& out) {
+  HWY_DYNAMIC_DISPATCH(split_blocks_lanes)(pixels, count, tolerance, out);
 }
 
 void merge_blocks(float const* top, float const* bottom, int left, int right, std::size_t count,
@@ -132,7 +153,7 @@ void merge_blocks(float const* top, float const* bottom, int left, int right, st
   HWY_DYNAMIC_DISPATCH(merge_blocks_lanes)(top, bottom, left, right, count, tolerance, out);
 }
 
-void spread_normals(float const* depth_m, BlockRow const& blocks, ConstVectorRow const& near,
+void spread_normals(float const* depth_m, SplitRow const& blocks, ConstVectorRow const& near,
                     ConstVectorRow const& far, std::size_t count, VectorRow const& out) {
   HWY_DYNAMIC_DISPATCH(spread_normals_lanes)(depth_m, blocks, near, far, count, out);
 }

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <cstdint>
+
 #include "stages/normals/depth_tolerance.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,13 +21,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, 16>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
+using DI = hn::RebindToSigned<D>;
+using VI = hn::Vec<DI>;
 
-inline V constant(float value) {
+HWY_INLINE V constant(float value) {
   return hn::Set(D(), value);
 }
 
 /// The tolerance at an inverse depth, as a difference of inverse depths.
-inline V tolerance_at(V w, DepthTolerance tolerance) {
+HWY_INLINE V tolerance_at(V w, DepthTolerance tolerance) {
   return constant(tolerance.jump_m) * w * w + constant(tolerance.noise_per_m);
 }
 

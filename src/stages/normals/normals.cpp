@@ -4,10 +4,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "stages/normals/block_image.hpp"
@@ -36,56 +36,93 @@ normals::FitParams fit_params(CameraIntrinsics const& intrinsics, NormalsConfig 
   return params;
 }
 
-/// One row of vectors, padded.
-class RowBuffer {
+/// Several rows of floats as one piece of memory.
+template <std::size_t kRows>
+class RowSpace {
 public:
-  explicit RowBuffer(std::size_t count) : count_(count), data_(3 * count) {}
-  [[nodiscard]] normals::VectorRow rows() {
-    return {data_.data(), data_.data() + count_, data_.data() + 2 * count_};
+  explicit RowSpace(std::size_t count) : data_(kRows * count) {
+    for (std::size_t i = 0; i < kRows; ++i) {
+      rows_[i] = data_.data() + i * count;
+    }
   }
-  [[nodiscard]] normals::ConstVectorRow rows() const {
-    return {data_.data(), data_.data() + count_, data_.data() + 2 * count_};
+  [[nodiscard]] std::array<float*, kRows> const& rows() const { return rows_; }
+
+private:
+  std::vector<float> data_;
+  std::array<float*, kRows> rows_{};
+};
+
+normals::ConstVectorRow read_only(normals::VectorRow const& row) {
+  return {row[0], row[1], row[2]};
+}
+
+/// Computes the normals of one row of blocks after the other.
+class RowWorker {
+public:
+  RowWorker(Grid<float> const& depth_m, normals::BlockImage const& image,
+            normals::FitParams const& params, NormalMap& result)
+      : depth_m_(depth_m),
+        image_(image),
+        params_(params),
+        result_(result),
+        count_(static_cast<std::size_t>(image.width)),
+        split_(normals::padded_lanes(count_)),
+        near_(normals::padded_lanes(count_)),
+        far_(normals::padded_lanes(count_)),
+        pixels_(2 * normals::padded_lanes(count_)) {}
+
+  /// Writes the one or two rows of the result that block row v covers.
+  void operator()(int v) {
+    normals::PixelRows const depth = normals::pixel_rows(depth_m_, v, depth_space_);
+    auto const [near_limit_m, far_limit_m, far_w] = split_.rows();
+    normals::SplitRow const split{near_limit_m, far_limit_m, far_w};
+    normals::split_blocks(depth, count_, params_.tolerance, split);
+    normals::LevelRows const samples = image_.level_rows(v);
+    normals::fit_normals(samples, v, samples.levels[0], count_, params_, near_.rows());
+    normals::fit_normals(samples, v, far_w, count_, params_, far_.rows());
+    spread(depth.top_m, split, 2 * v);
+    if (2 * v + 1 < depth_m_.height()) {
+      spread(depth.bottom_m, split, 2 * v + 1);
+    }
   }
 
 private:
-  std::size_t count_;
-  std::vector<float> data_;
-};
+  void spread(float const* depth_m, normals::SplitRow const& split, int pixel_v) {
+    normals::VectorRow const row{result_.x.row(pixel_v).data(), result_.y.row(pixel_v).data(),
+                                 result_.z.row(pixel_v).data()};
+    auto const width = static_cast<std::size_t>(result_.width());
+    bool const whole_vectors = width == 2 * normals::padded_lanes(count_);
+    normals::spread_normals(depth_m, split, read_only(near_.rows()), read_only(far_.rows()), count_,
+                            whole_vectors ? row : pixels_.rows());
+    for (std::size_t i = 0; i < row.size() && !whole_vectors; ++i) {
+      std::copy_n(pixels_.rows()[i], width, row[i]);
+    }
+  }
 
-void copy_row(normals::ConstVectorRow const& from, int v, NormalMap& to) {
-  auto const width = static_cast<std::size_t>(to.width());
-  std::copy_n(from[0], width, to.x.row(v).data());
-  std::copy_n(from[1], width, to.y.row(v).data());
-  std::copy_n(from[2], width, to.z.row(v).data());
-}
+  Grid<float> const& depth_m_;
+  normals::BlockImage const& image_;
+  normals::FitParams const& params_;
+  NormalMap& result_;
+  std::size_t count_;
+  normals::PixelRowsSpace depth_space_;
+  RowSpace<3> split_;
+  RowSpace<3> near_;
+  RowSpace<3> far_;
+  RowSpace<3> pixels_;
+};
 
 }  // namespace
 
 NormalMap estimate_normals(OrganizedCloud const& cloud, CameraIntrinsics const& intrinsics,
                            NormalsConfig const& config) {
   normals::FitParams const params = fit_params(intrinsics, config);
-  normals::BlockImage image = normals::make_block_image(cloud.z, params.tolerance);
+  normals::BlockImage const image = normals::make_block_image(cloud.z, params.tolerance);
   NormalMap result(cloud.width(), cloud.height());
-  auto const count = static_cast<std::size_t>(image.width);
-  std::size_t const padded = normals::padded_lanes(count);
-
   constexpr int kRowsPerTask = 8;
   tbb::parallel_for(tbb::blocked_range<int>(0, image.height, kRowsPerTask), [&](auto const& rows) {
-    RowBuffer near(padded);
-    RowBuffer far(padded);
-    RowBuffer pixels(2 * padded);
-    std::vector<float> depth_m;
+    RowWorker work(cloud.z, image, params, result);
     for (int v = rows.begin(); v < rows.end(); ++v) {
-      normals::BlockRow const blocks = image.row(v);
-      normals::LevelRows const samples = image.level_rows(v);
-      normals::fit_normals(samples, v, blocks.near_w, count, params, near.rows());
-      normals::fit_normals(samples, v, blocks.far_w, count, params, far.rows());
-      for (int pixel_v = 2 * v; pixel_v < std::min(2 * v + 2, cloud.height()); ++pixel_v) {
-        normals::copy_depth_row(cloud.z, pixel_v, depth_m);
-        normals::spread_normals(depth_m.data(), blocks, std::as_const(near).rows(),
-                                std::as_const(far).rows(), count, pixels.rows());
-        copy_row(std::as_const(pixels).rows(), pixel_v, result);
-      }
+      work(v);
     }
   });
   return result;

@@ -1,8 +1,11 @@
+#include <iterator>
+
 #include "stages/planes/planes.hpp"
 
 namespace credo {
+namespace {
 
-FieldList fields(PlanesConfig& config) {
+FieldList search_fields(PlanesConfig& config) {
   return {
       {"inlier_distance_m",
        &config.inlier_distance_m,
@@ -39,7 +42,17 @@ FieldList fields(PlanesConfig& config) {
        {16, 1e7},
        "points",
        "draws are compared on so many evenly spread points; the inliers of the best are exact"},
+      {"sample_points",
+       &config.sample_points,
+       {1024, 1e7},
+       "points",
+       "a plane is drawn from and fitted to so many evenly spread points"},
       {"seed", &config.seed, {0, 2e9}, "", "seed of the draws"},
+  };
+}
+
+FieldList kind_fields(PlanesConfig& config) {
+  return {
       {"floor_max_normal_xy",
        &config.floor_max_normal_xy,
        {0, 1},
@@ -55,6 +68,11 @@ FieldList fields(PlanesConfig& config) {
        {0, 10},
        "m",
        "floor: greatest mean |z| of the inliers"},
+      {"floor_max_height_m",
+       &config.floor_max_height_m,
+       {0, 10},
+       "m",
+       "floor: greatest |z| of a pixel; 0 for no limit"},
       {"wall_max_normal_z", &config.wall_max_normal_z, {0, 1}, "", "wall: |n_z| below this"},
       {"wall_min_normal_xy",
        &config.wall_min_normal_xy,
@@ -77,12 +95,29 @@ FieldList fields(PlanesConfig& config) {
        {0, 10},
        "m",
        "wall: height from its lowest to its highest point, at least"},
+      {"surface_min_share",
+       &config.surface_min_share,
+       {0, 1},
+       "",
+       "a plane that is neither, with so large a share of the pixels with depth, is told apart "
+       "from "
+       "what stands on it; 0 for never"},
       {"point_spacing_m",
        &config.point_spacing_m,
        {0.001, 1},
        "m",
        "spacing of the floor's and the walls' points in the belief"},
   };
+}
+
+}  // namespace
+
+FieldList fields(PlanesConfig& config) {
+  FieldList all = search_fields(config);
+  FieldList kinds = kind_fields(config);
+  all.insert(all.end(), std::make_move_iterator(kinds.begin()),
+             std::make_move_iterator(kinds.end()));
+  return all;
 }
 
 }  // namespace credo

@@ -1,186 +1,328 @@
 #include "stages/planes/planes.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/thinning.hpp"
+#include "stages/planes/plane_pixels.hpp"
 
 namespace credo {
 namespace {
 
-/// Axial noise of a Kinect at depth z, one standard deviation (Nguyen, Izadi and Lovell 2012).
-float axial_noise_m(float depth_m) {
-  float const beyond = depth_m - 0.4F;
-  return 0.0012F + 0.0019F * beyond * beyond;
+/// What every step looks at. Planes are searched for where the depths are: in the camera frame.
+struct View {
+  OrganizedCloud const& cloud;
+  NormalMap const& normals;
+  Se3 const& T_world_camera;
+  PlanesConfig const& config;
+  PlaneTolerance tolerance;
+  /// All pixels with depth.
+  CountedPixels valid;
+};
+
+/// A plane with its pixels.
+struct PixelPlane {
+  Plane camera;
+  /// The same plane in the world frame.
+  Plane world;
+  CountedPixels inliers;
+};
+
+PlaneTolerance tolerance_of(PlanesConfig const& config) {
+  constexpr double kRightAngle = 1.5707963;
+  return {static_cast<float>(config.inlier_distance_m), static_cast<float>(config.noise_sigmas),
+          config.max_angle_rad < kRightAngle ? static_cast<float>(std::cos(config.max_angle_rad))
+                                             : 0.0F};
 }
 
-/// The frame's valid points in the world frame, with the distance at which each counts as an
-/// inlier. `source` is the pixel.
-PlaneSearchPoints world_points(Frame const& frame, NormalMap const& normals,
-                               Se3 const& T_world_camera, PlanesConfig const& config) {
-  OrganizedCloud const& cloud = frame.cloud_camera;
-  Eigen::Matrix3f const R = T_world_camera.rotation().toRotationMatrix().cast<float>();
-  Eigen::Vector3f const t = T_world_camera.translation().cast<float>();
-  auto const fixed_m = static_cast<float>(config.inlier_distance_m);
-  auto const sigmas = static_cast<float>(config.noise_sigmas);
-  PlaneSearchPoints points;
-  points.reserve(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.valid(i)) {
-      float const tolerance_m = std::max(fixed_m, sigmas * axial_noise_m(cloud.z[i]));
-      points.add(R * cloud.at(i) + t, R * normals.at(i), tolerance_m,
-                 static_cast<std::uint32_t>(i));
+/// The pixels whose label passes.
+template <typename Test>
+CountedPixels pixels_where(LabelMap const& labels, Test const& test) {
+  CountedPixels result{PixelSet(labels.size()), 0};
+  std::span<std::uint64_t> const words = result.pixels.words();
+  for (std::size_t w = 0; w < words.size(); ++w) {
+    std::size_t const begin = w * PixelSet::kWordBits;
+    std::size_t const end = std::min(begin + PixelSet::kWordBits, labels.size());
+    std::uint64_t bits = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      bits |= std::uint64_t{test(labels[i])} << (i - begin);
     }
+    words[w] = bits;
+    result.count += static_cast<std::size_t>(std::popcount(bits));
   }
-  return points;
+  return result;
 }
 
-/// Thesis 3.2: horizontal, and at z = 0. The plane's normal points up.
-bool is_floor(FoundPlane const& found, PlaneSearchPoints const& points,
-              PlanesConfig const& config) {
-  Eigen::Vector3d const& n = found.plane.normal;
+CountedPixels unassigned_pixels(LabelMap const& labels) {
+  return pixels_where(labels, [](LabelCode label) { return label == kUnassigned; });
+}
+
+CountedPixels pixels_with_depth(LabelMap const& labels) {
+  return pixels_where(labels, [](LabelCode label) { return label != kNoDepth; });
+}
+
+/// What no plane has taken yet (thesis algorithm 2). Planes are found and fitted on a sample of it,
+/// then every pixel is asked.
+class RemainingPoints {
+public:
+  RemainingPoints(View const& view, CountedPixels pixels)
+      : view_(view), pixels_(std::move(pixels)) {}
+
+  /// Takes the largest plane out; none once it has fewer pixels than a plane must have.
+  std::optional<PixelPlane> take_largest(std::uint32_t seed) {
+    PlanesConfig const& config = view_.config;
+    auto const least = static_cast<std::size_t>(config.min_plane_pixels);
+    if (pixels_.count < least) {
+      return std::nullopt;
+    }
+    refresh_sample();
+    std::optional<FoundPlane> const found =
+        find_largest_plane(sample_, {config.sampling, config.max_angle_rad, config.confidence,
+                                     config.max_hypotheses, config.scoring_points, seed});
+    if (!found) {
+      return std::nullopt;
+    }
+    CountedPixels inliers =
+        plane_inliers(found->plane, view_.cloud, view_.normals, pixels_.pixels, view_.tolerance);
+    if (inliers.count < least) {
+      return std::nullopt;
+    }
+    pixels_.remove(inliers);
+    sample_.remove(found->inliers);
+    return oriented(found->plane, std::move(inliers));
+  }
+
+private:
+  /// Planes thin the sample out: once half of it has gone, what remains is sampled anew.
+  void refresh_sample() {
+    auto const most = static_cast<std::size_t>(view_.config.sample_points);
+    if (2 * sample_.size() >= std::min(most, pixels_.count)) {
+      return;
+    }
+    sample_ = {};
+    sample_.reserve(std::min(pixels_.count, most));
+    pixels_.pixels.for_every((pixels_.count + most - 1) / most, [&](std::size_t i) {
+      sample_.add(view_.cloud.at(i), view_.normals.at(i),
+                  view_.tolerance.distance_m(view_.cloud.z[i]), static_cast<std::uint32_t>(i));
+    });
+  }
+
+  /// With the normal up.
+  [[nodiscard]] PixelPlane oriented(Plane const& camera, CountedPixels inliers) const {
+    Plane const world = transformed(view_.T_world_camera, camera);
+    bool const up = world.normal.z() >= 0.0;
+    return {up ? camera : camera.flipped(), up ? world : world.flipped(), std::move(inliers)};
+  }
+
+  View const& view_;
+  CountedPixels pixels_;
+  PlaneSearchPoints sample_;
+};
+
+/// Height above z = 0 of a pixel.
+class Heights {
+public:
+  explicit Heights(View const& view)
+      : cloud_(view.cloud),
+        up_(view.T_world_camera.rotation().toRotationMatrix().row(2).cast<float>()),
+        camera_m_(static_cast<float>(view.T_world_camera.translation().z())) {}
+
+  [[nodiscard]] float operator()(std::size_t pixel) const {
+    return up_.dot(cloud_.at(pixel)) + camera_m_;
+  }
+
+private:
+  OrganizedCloud const& cloud_;
+  Eigen::Vector3f up_;
+  float camera_m_;
+};
+
+/// Thesis 3.2: horizontal, and at z = 0.
+bool is_floor(View const& view, PixelPlane const& plane) {
+  PlanesConfig const& config = view.config;
+  Eigen::Vector3d const& n = plane.world.normal;
   if (std::abs(n.x()) > config.floor_max_normal_xy ||
       std::abs(n.y()) > config.floor_max_normal_xy ||
       std::abs(n.z() - 1.0) > config.floor_max_normal_z_gap) {
     return false;
   }
+  Heights const height_m(view);
   double sum_m = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    sum_m += found.inliers[i] != 0 ? std::abs(static_cast<double>(points.z[i])) : 0.0;
-  }
-  return sum_m <= config.floor_max_mean_height_m * static_cast<double>(found.inlier_count);
+  plane.inliers.pixels.for_each(
+      [&](std::size_t i) { sum_m += static_cast<double>(std::abs(height_m(i))); });
+  return sum_m <= config.floor_max_mean_height_m * static_cast<double>(plane.inliers.count);
 }
 
-/// Points of the whole cloud clear of the plane on that of its sides where fewer are.
-std::size_t points_beyond(Plane const& plane, PlaneSearchPoints const& all) {
-  Eigen::Vector3f const n = plane.normal.cast<float>();
-  auto const offset_m = static_cast<float>(plane.offset_m);
-  std::uint32_t front = 0;
-  std::uint32_t back = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    float const distance = n.x() * all.x[i] + n.y() * all.y[i] + n.z() * all.z[i] - offset_m;
-    front += static_cast<std::uint32_t>(distance > all.tolerance_m[i]);
-    back += static_cast<std::uint32_t>(distance < -all.tolerance_m[i]);
+/// Those near enough to z = 0.
+CountedPixels low_pixels(View const& view, CountedPixels pixels) {
+  if (view.config.floor_max_height_m == 0.0) {
+    return pixels;
   }
-  return std::min(front, back);
-}
-
-/// Height from the lowest to the highest inlier, without the outermost per cent at either end.
-double vertical_extent_m(FoundPlane const& found, PlaneSearchPoints const& points) {
-  std::vector<float> heights;
-  heights.reserve(found.inlier_count);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (found.inliers[i] != 0) {
-      heights.push_back(points.z[i]);
+  auto const most_m = static_cast<float>(view.config.floor_max_height_m);
+  Heights const height_m(view);
+  CountedPixels high{PixelSet(view.cloud.size()), 0};
+  pixels.pixels.for_each([&](std::size_t i) {
+    if (std::abs(height_m(i)) > most_m) {
+      high.pixels.insert(i);
+      ++high.count;
     }
-  }
-  if (heights.empty()) {
-    return 0.0;
-  }
-  auto const cut = static_cast<std::ptrdiff_t>(heights.size() / 100);
-  std::nth_element(heights.begin(), heights.begin() + cut, heights.end());
-  float const low = heights[static_cast<std::size_t>(cut)];
-  auto const top = static_cast<std::ptrdiff_t>(heights.size()) - 1 - cut;
-  std::nth_element(heights.begin(), heights.begin() + top, heights.end());
-  return static_cast<double>(heights[static_cast<std::size_t>(top)] - low);
+  });
+  pixels.remove(high);
+  return pixels;
 }
 
-/// Thesis 3.2: vertical, with nearly nothing beyond it.
-bool is_wall(FoundPlane const& found, PlaneSearchPoints const& points, PlaneSearchPoints const& all,
-             PlanesConfig const& config) {
-  Eigen::Vector3d const n = found.plane.normal.cwiseAbs();
+/// Height from the lowest to the highest pixel, without the outermost per cent at either end.
+double vertical_extent_m(View const& view, PixelPlane const& plane) {
+  Heights const height_m(view);
+  std::vector<float> heights;
+  heights.reserve(plane.inliers.count);
+  plane.inliers.pixels.for_each([&](std::size_t i) { heights.push_back(height_m(i)); });
+  auto const cut = static_cast<std::ptrdiff_t>(heights.size() / 100);
+  auto const top = static_cast<std::ptrdiff_t>(heights.size()) - 1 - cut;
+  std::nth_element(heights.begin(), heights.begin() + cut, heights.end());
+  float const low_m = heights[static_cast<std::size_t>(cut)];
+  std::nth_element(heights.begin(), heights.begin() + top, heights.end());
+  return static_cast<double>(heights[static_cast<std::size_t>(top)] - low_m);
+}
+
+/// Thesis 3.2: vertical, with nearly nothing beyond it on one of its sides.
+bool is_wall(View const& view, PixelPlane const& plane) {
+  PlanesConfig const& config = view.config;
+  Eigen::Vector3d const n = plane.world.normal.cwiseAbs();
   if (!(n.z() < config.wall_max_normal_z) ||
       !(std::max(n.x(), n.y()) > config.wall_min_normal_xy) ||
-      found.inlier_count < static_cast<std::size_t>(config.wall_min_pixels)) {
+      plane.inliers.count < static_cast<std::size_t>(config.wall_min_pixels)) {
     return false;
   }
+  SideCounts const sides = count_sides(plane.camera, view.cloud, view.valid.pixels, view.tolerance);
   double const allowed =
       std::max(static_cast<double>(config.wall_max_points_beyond),
-               config.wall_max_share_beyond * static_cast<double>(found.inlier_count));
-  return static_cast<double>(points_beyond(found.plane, all)) <= allowed &&
-         vertical_extent_m(found, points) >= config.wall_min_extent_m;
+               config.wall_max_share_beyond * static_cast<double>(plane.inliers.count));
+  return static_cast<double>(std::min(sides.front, sides.back)) <= allowed &&
+         vertical_extent_m(view, plane) >= config.wall_min_extent_m;
 }
 
 /// Writes the label on the plane's pixels and returns their world points, thinned.
-PointList label_inliers(FoundPlane const& found, PlaneSearchPoints const& points, LabelCode code,
-                        double spacing_m, LabelMap& labels) {
-  PointList inliers;
-  inliers.reserve(found.inlier_count);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (found.inliers[i] != 0) {
-      labels[points.source[i]] = code;
-      inliers.emplace_back(points.x[i], points.y[i], points.z[i]);
-    }
-  }
-  return thin_points(inliers, static_cast<float>(spacing_m));
+PointList label_pixels(View const& view, PixelPlane const& plane, LabelCode code,
+                       LabelMap& labels) {
+  Eigen::Matrix3f const rotation = view.T_world_camera.rotation().toRotationMatrix().cast<float>();
+  Eigen::Vector3f const translation = view.T_world_camera.translation().cast<float>();
+  PointList points;
+  points.reserve(plane.inliers.count);
+  plane.inliers.pixels.for_each([&](std::size_t i) {
+    labels[i] = code;
+    points.emplace_back(rotation * view.cloud.at(i) + translation);
+  });
+  return thin_points(points, static_cast<float>(view.config.point_spacing_m));
 }
 
-void add_floor(FoundPlane const& found, PlaneSearchPoints const& points, PlanesConfig const& config,
-               Segmentation& segmentation) {
-  PointList added =
-      label_inliers(found, points, kFloor, config.point_spacing_m, segmentation.labels);
+void add_floor(View const& view, PixelPlane plane, Segmentation& segmentation) {
+  plane.inliers = low_pixels(view, std::move(plane.inliers));
+  PointList added = label_pixels(view, plane, kFloor, segmentation.labels);
   if (!segmentation.floor) {
-    segmentation.floor = FloorObservation{found.plane, std::move(added), found.inlier_count};
+    segmentation.floor = FloorObservation{plane.world, std::move(added), plane.inliers.count};
     return;
   }
   // A later plane that passes too is more of the same floor; the largest one's fit stays.
   FloorObservation& floor = *segmentation.floor;
   floor.points_world.insert(floor.points_world.end(), added.begin(), added.end());
-  floor.points_world = thin_points(floor.points_world, static_cast<float>(config.point_spacing_m));
-  floor.pixel_count += found.inlier_count;
+  floor.points_world =
+      thin_points(floor.points_world, static_cast<float>(view.config.point_spacing_m));
+  floor.pixel_count += plane.inliers.count;
 }
 
-void add_wall(FoundPlane const& found, PlaneSearchPoints const& points, PlanesConfig const& config,
-              Segmentation& segmentation) {
+void add_wall(View const& view, PixelPlane const& plane, Segmentation& segmentation) {
   WallObservation wall;
   wall.label = static_cast<LabelCode>(kFirstWall + segmentation.walls.size());
-  wall.plane_world = found.plane;
-  if (wall.plane_world.signed_distance_m(segmentation.T_world_camera.translation()) < 0) {
-    wall.plane_world = wall.plane_world.flipped();
-  }
-  wall.points_world =
-      label_inliers(found, points, wall.label, config.point_spacing_m, segmentation.labels);
-  wall.pixel_count = found.inlier_count;
+  bool const faces_camera = plane.world.signed_distance_m(view.T_world_camera.translation()) >= 0.0;
+  wall.plane_world = faces_camera ? plane.world : plane.world.flipped();
+  wall.points_world = label_pixels(view, plane, wall.label, segmentation.labels);
+  wall.pixel_count = plane.inliers.count;
   segmentation.walls.push_back(std::move(wall));
 }
 
-/// What is left to search: the points of unassigned pixels.
-PlaneSearchPoints unassigned_points(PlaneSearchPoints const& all, LabelMap const& labels) {
-  PlaneSearchPoints remaining = all;
-  std::vector<std::uint8_t> taken(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    taken[i] = static_cast<std::uint8_t>(labels[all.source[i]] != kUnassigned);
+/// Neither floor nor wall: where it is large, its pixels get the next number.
+class SurfaceNumbers {
+public:
+  SurfaceNumbers(View const& view, Segmentation& segmentation)
+      : least_(view.config.surface_min_share * static_cast<double>(view.valid.count)),
+        wanted_(view.config.surface_min_share > 0.0),
+        segmentation_(segmentation) {}
+
+  void offer(PixelPlane const& plane) {
+    constexpr std::uint8_t kMostSurfaces = 255;
+    if (!wanted_ || static_cast<double>(plane.inliers.count) < least_ || last_ == kMostSurfaces) {
+      return;
+    }
+    Grid<std::uint8_t>& surfaces = segmentation_.surfaces;
+    if (surfaces.empty()) {
+      surfaces = Grid<std::uint8_t>(segmentation_.labels.width(), segmentation_.labels.height());
+    }
+    ++last_;
+    plane.inliers.pixels.for_each([&](std::size_t i) { surfaces[i] = last_; });
   }
-  remaining.remove(taken);
-  return remaining;
+
+private:
+  double least_;
+  bool wanted_;
+  std::uint8_t last_ = 0;
+  Segmentation& segmentation_;
+};
+
+/// Noise turns normals before it moves points: with an angle to pass, a wall far away is full of
+/// holes. So pixels that nothing has explained join floor or wall where they all but lie in it,
+/// whatever their normals; the planes themselves stay as fitted.
+void fill_holes(View const& view, std::vector<std::pair<LabelCode, Plane>> const& found,
+                Segmentation& segmentation) {
+  constexpr float kAllBut = 0.5F;
+  PlaneTolerance const close{kAllBut * view.tolerance.fixed_m,
+                             kAllBut * view.tolerance.noise_sigmas, 0.0F};
+  CountedPixels unassigned = unassigned_pixels(segmentation.labels);
+  for (auto const& [label, plane_camera] : found) {
+    CountedPixels joining =
+        plane_inliers(plane_camera, view.cloud, view.normals, unassigned.pixels, close);
+    if (label == kFloor) {
+      joining = low_pixels(view, std::move(joining));
+    }
+    joining.pixels.for_each([&, code = label](std::size_t i) { segmentation.labels[i] = code; });
+    unassigned.remove(joining);
+  }
 }
 
 }  // namespace
 
 Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
                             PlanesConfig const& config) {
-  PlaneSearchPoints const all = world_points(frame, normals, segmentation.T_world_camera, config);
-  PlaneSearchPoints remaining = unassigned_points(all, segmentation.labels);
-  PlaneSearchLimits limits{config.sampling,       config.max_angle_rad,  config.confidence,
-                           config.max_hypotheses, config.scoring_points, 0};
+  View const view{frame.cloud_camera,          normals,
+                  segmentation.T_world_camera, config,
+                  tolerance_of(config),        pixels_with_depth(segmentation.labels)};
+  RemainingPoints remaining(view, unassigned_pixels(segmentation.labels));
+  SurfaceNumbers surfaces(view, segmentation);
+  std::vector<std::pair<LabelCode, Plane>> found;
   for (int k = 0; k < config.max_planes; ++k) {
-    limits.seed = static_cast<std::uint32_t>(config.seed) + static_cast<std::uint32_t>(k);
-    std::optional<FoundPlane> found = find_largest_plane(remaining, limits);
-    if (!found || found->inlier_count < static_cast<std::size_t>(config.min_plane_pixels)) {
+    std::optional<PixelPlane> const plane = remaining.take_largest(
+        static_cast<std::uint32_t>(config.seed) + static_cast<std::uint32_t>(k));
+    if (!plane) {
       break;
     }
-    if (found->plane.normal.z() < 0) {
-      found->plane = found->plane.flipped();
+    if (segmentation.floor_at_zero && is_floor(view, *plane)) {
+      add_floor(view, *plane, segmentation);
+      found.emplace_back(kFloor, plane->camera);
+    } else if (segmentation.walls.size() < kMaxWalls && is_wall(view, *plane)) {
+      add_wall(view, *plane, segmentation);
+      found.emplace_back(segmentation.walls.back().label, plane->camera);
+    } else {
+      surfaces.offer(*plane);
     }
-    if (segmentation.floor_at_zero && is_floor(*found, remaining, config)) {
-      add_floor(*found, remaining, config, segmentation);
-    } else if (segmentation.walls.size() < kMaxWalls && is_wall(*found, remaining, all, config)) {
-      add_wall(*found, remaining, config, segmentation);
-    }
-    remaining.remove(found->inliers);
+  }
+  if (view.tolerance.min_cosine > 0.0F) {
+    fill_holes(view, found, segmentation);
   }
   return segmentation;
 }

@@ -10,8 +10,8 @@
 
 namespace credo {
 
-/// Floor and walls (thesis 3.2 and algorithm 2). The defaults are the thesis' numbers, marked T,
-/// with the sensor's noise and the points' normals left out of account, as the thesis does.
+/// Floor and walls (thesis 3.2 and algorithm 2). The thesis' numbers are marked T; it leaves the
+/// sensor's noise and the points' normals out of account.
 struct PlanesConfig {
   /// A point belongs to a plane within this distance (T: 0.05) ...
   double inlier_distance_m = 0.015;
@@ -27,12 +27,16 @@ struct PlanesConfig {
   double confidence = 0.99;
   int max_hypotheses = 100;
   int scoring_points = 2048;
+  int sample_points = 16384;
   int seed = 1;
   /// Floor: horizontal components of the normal at most this (T: 0.5), the vertical one at least
   /// one minus the other (T: 0.1), mean |z| of the inliers at most the third (T: 0.1).
   double floor_max_normal_xy = 0.5;
   double floor_max_normal_z_gap = 0.1;
   double floor_max_mean_height_m = 0.1;
+  /// Pixels farther than this from z = 0 are not floor, whatever their plane; 0 for no limit. What
+  /// the level and the camera's pose may be wrong by.
+  double floor_max_height_m = 0.12;
   /// Wall: |n_z| below this (T: 0.1) ...
   double wall_max_normal_z = 0.1;
   /// ... |n_x| or |n_y| above this (T: 0.5) ...
@@ -44,14 +48,18 @@ struct PlanesConfig {
   /// Walls with fewer pixels, or lower from their foot to their top, stay in the cloud.
   int wall_min_pixels = 4000;
   double wall_min_extent_m = 0.4;
+  /// A plane that is neither, but has so large a share of the pixels with depth, is told apart:
+  /// what stands on a table is not the table. 0 for never, as the thesis has it.
+  double surface_min_share = 0.06;
   /// Spacing of the points that are handed to the belief.
   double point_spacing_m = 0.05;
 };
 FieldList fields(PlanesConfig& config);
 
 /// Labels floor and walls among the unassigned pixels and adds their observations; planes that are
-/// neither keep their pixels unassigned. Walls are numbered from 2000 in the order they are found,
-/// largest first. No pixels, no plane or no level (`floor_at_zero` false: no floor) is no error.
+/// neither keep their pixels unassigned; the large ones are told in `surfaces`. Walls are numbered
+/// from 2000 in the order they are found, largest first. No pixels, no plane or no level
+/// (`floor_at_zero` false: no floor) is no error.
 Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
                             PlanesConfig const& config);
 

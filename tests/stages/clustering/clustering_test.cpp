@@ -44,7 +44,7 @@ Frame two_boards() {
 }
 
 Segmentation cluster(Frame const& frame, NormalMap const& normals,
-                     ClusteringConfig const& config = {}) {
+                     ClusteringConfig const& config = {.min_pixels = 25}) {
   return cluster_stuff(frame, normals, unassigned_segmentation(frame, Se3(), kPriorFrame), config);
 }
 
@@ -86,7 +86,7 @@ TEST(ClusterStuff, GivesWorldCoordinates) {
   matrix << 0, 0, 1, 5, -1, 0, 0, 0, 0, -1, 0, 1, 0, 0, 0, 1;
   Segmentation const result = cluster_stuff(
       frame, facing_normals(frame),
-      unassigned_segmentation(frame, Se3::from_matrix(matrix), kPriorFrame), ClusteringConfig{});
+      unassigned_segmentation(frame, Se3::from_matrix(matrix), kPriorFrame), {.min_pixels = 25});
   ASSERT_THAT(result.stuff, SizeIs(2));
   EXPECT_TRUE(
       result.stuff[1].centroid_world.isApprox(Eigen::Vector3f(6.2F, -0.145F, 0.955F), 1e-5F));
@@ -102,10 +102,31 @@ TEST(ClusterStuff, LeavesWhatIsExplained) {
   Segmentation before = unassigned_segmentation(frame, Se3(), kPriorFrame);
   std::fill(before.labels.begin(), before.labels.begin() + 100, kFloor);
   Segmentation const result =
-      cluster_stuff(frame, facing_normals(frame), before, ClusteringConfig{});
+      cluster_stuff(frame, facing_normals(frame), before, {.min_pixels = 25});
   EXPECT_THAT(result.labels.row(4), Each(kFloor));
   ASSERT_THAT(result.stuff, SizeIs(2));
   EXPECT_EQ(result.stuff[0].pixel_count, 50U);
+}
+
+TEST(ClusterStuff, DoesNotJoinAcrossTheBordersOfSurfaces) {
+  Frame const frame = frame_of(20, 10, std::vector<float>(20, 1.0F));
+  NormalMap const normals = facing_normals(frame);
+  ASSERT_THAT(cluster(frame, normals).stuff, SizeIs(1));
+  Segmentation before = unassigned_segmentation(frame, Se3(), kPriorFrame);
+  before.surfaces = Grid<std::uint8_t>(20, 10);
+  for (int v = 4; v < 10; ++v) {
+    std::ranges::fill(before.surfaces.row(v).subspan(5, 10), std::uint8_t{2});
+  }
+  std::ranges::fill(before.surfaces.row(9).subspan(15), std::uint8_t{1});
+  Segmentation const result = cluster_stuff(frame, normals, before, {.min_pixels = 1});
+  // Numbered by their first pixels, whatever the surfaces' numbers.
+  ASSERT_THAT(result.stuff, SizeIs(3));
+  EXPECT_EQ(result.stuff[0].pixel_count, 135U);
+  EXPECT_EQ(result.stuff[1].pixel_count, 60U);
+  EXPECT_EQ(result.stuff[2].pixel_count, 5U);
+  EXPECT_EQ((result.labels[{7, 6}]), kFirstStuff + 1);
+  EXPECT_EQ((result.labels[{16, 9}]), kFirstStuff + 2);
+  EXPECT_EQ((result.labels[{0, 9}]), kFirstStuff);
 }
 
 TEST(ClusterStuff, IgnoresSmallClusters) {
@@ -125,7 +146,7 @@ TEST(ClusterStuff, CountsThePixelsThatTakeItsLabelAtTheEnd) {
       normals.set(normals.x.index({u, v}), Eigen::Vector3f::Constant(kNaN));
     }
   }
-  Segmentation const one_step = cluster(frame, normals, {.spread_px = 1});
+  Segmentation const one_step = cluster(frame, normals, {.min_pixels = 25, .spread_px = 1});
   ASSERT_THAT(one_step.stuff, SizeIs(2));
   EXPECT_EQ(one_step.stuff[0].pixel_count, 80U);
   Segmentation const all = cluster(frame, normals);
@@ -157,7 +178,8 @@ TEST(ClusterStuff, CentroidOfAFlatClusterStaysInItsBounds) {
     Frame const frame = frame_of(9, 7, std::vector<float>(9, depth_m));
     Segmentation const before = unassigned_segmentation(
         frame, Se3(Eigen::Quaterniond(0.9, 0.1, 0.3, 0.2), {0.1, 0.2, 0.3}), kPriorFrame);
-    Segmentation const result = cluster_stuff(frame, facing_normals(frame), before, {});
+    Segmentation const result =
+        cluster_stuff(frame, facing_normals(frame), before, {.min_pixels = 25});
     ASSERT_THAT(result.stuff, SizeIs(1));
     EXPECT_TRUE(result.stuff[0].bounds_world.contains(result.stuff[0].centroid_world));
   }

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <utility>
 
 #include "core/cloud.hpp"
@@ -43,16 +44,39 @@ TEST(FusedFloor, SharesItsPointsWhereNothingIsNew) {
   EXPECT_EQ(fused_floor(floor, std::nullopt, {})->points, floor->points);
 }
 
-TEST(FusedFloor, WeighsNormalsByPoints) {
-  FloorObservation tilted = floor_patch({0, 0}, {1, 1}, 0.01F);
-  tilted.plane_world.normal = Eigen::Vector3d(0.02, 0, 1).normalized();
-  tilted.plane_world.offset_m = tilted.plane_world.normal.dot(Eigen::Vector3d(0.52, 0.52, 0.01));
-  auto floor = fused_floor(std::nullopt, floor_patch({0, 0}, {1, 3.2F}, 0.01F), {});
-  ASSERT_THAT(*floor->points, SizeIs(11 * 33));
-  floor = fused_floor(std::move(floor), tilted, {});
-  EXPECT_NEAR(floor->normal.x() / floor->normal.z(), 0.02 / 4, 1e-5);
-  // Both planes pass through the same height at x = 0.52, where the centroid is.
-  EXPECT_NEAR(floor->height_m, 0.01, 1e-5);
+/// The same points, said to lie in a plane that rises by `slope` along x.
+FloorObservation told_with_slope(FloorObservation patch, double slope) {
+  Eigen::Vector3d const normal = Eigen::Vector3d(-slope, 0, 1).normalized();
+  patch.plane_world = {
+      normal, normal.dot(patch.points_world[patch.points_world.size() / 2].cast<double>())};
+  return patch;
+}
+
+double slope_along_x(FloorBelief const& floor) {
+  return -floor.normal.x() / floor.normal.z();
+}
+
+TEST(FusedFloor, LeansOnObservedNormalsWhereItsPointsLieClose) {
+  FloorObservation const spot = floor_patch({0, 0}, {0.1F, 0.1F}, 0.01F);
+  auto floor = fused_floor(std::nullopt, told_with_slope(spot, 0.02), {});
+  EXPECT_NEAR(slope_along_x(*floor), 0.02, 0.001);
+  floor = fused_floor(std::move(floor), told_with_slope(spot, -0.02), {});
+  EXPECT_NEAR(slope_along_x(*floor), 0.0, 0.001);
+}
+
+TEST(FusedFloor, IsFittedToItsPointsWhereTheyLieFarApart) {
+  // Two strips 8 m apart, level with each other, each told 3 degrees wrong: their planes would part
+  // by 40 cm on the way.
+  auto floor =
+      fused_floor(std::nullopt, told_with_slope(floor_patch({0, 0}, {0.2F, 2}, 0), 0.05), {});
+  floor =
+      fused_floor(std::move(floor), told_with_slope(floor_patch({8, 0}, {8.2F, 2}, 0), 0.05), {});
+  EXPECT_LT(std::abs(slope_along_x(*floor)), 0.001);
+  EXPECT_NEAR(floor->height_m, 0.0, 1e-6);
+  // Something between them that lies 2 cm higher lifts the floor there, and tilts nothing.
+  floor = fused_floor(std::move(floor), floor_patch({3.6F, 0}, {4.6F, 2}, 0.02F), {});
+  EXPECT_LT(std::abs(slope_along_x(*floor)), 0.001);
+  EXPECT_GT(floor->height_m, 0.01);
 }
 
 TEST(FusedFloor, StopsGrowingAtItsBound) {

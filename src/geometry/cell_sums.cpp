@@ -1,0 +1,247 @@
+#include "geometry/cell_sums.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "core/cloud.hpp"
+
+// This file is compiled once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "geometry/cell_sums.cpp"  // NOLINT(*-macro-usage): Highway
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace credo::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// As many points at once as doubles fit.
+using Doubles = hn::CappedTag<double, CellSums::kLanes>;
+using Floats = hn::Rebind<float, Doubles>;
+using Words = hn::RebindToUnsigned<Doubles>;
+using Vec = hn::Vec<Floats>;
+
+// Position along an axis, shifted to be positive: then truncation is the floor.
+HWY_INLINE hn::Vec<Words> cells_along_axis(Vec coordinate_m, double cells_per_m) {
+  Doubles const d;
+  constexpr double kHalfRange = 1 << 20;
+  auto const coordinate = hn::PromoteTo(d, coordinate_m);
+  auto const cell = hn::Add(hn::Mul(coordinate, hn::Set(d, cells_per_m)), hn::Set(d, kHalfRange));
+  auto const inside = hn::Min(hn::Max(cell, hn::Zero(d)), hn::Set(d, 2.0 * kHalfRange - 1.0));
+  auto const integers = hn::DemoteTo(hn::Rebind<std::int32_t, Doubles>(), inside);
+  return hn::PromoteTo(Words(), hn::BitCast(hn::Rebind<std::uint32_t, Doubles>(), integers));
+}
+
+// The cell of a point in one number, 21 bits an axis.
+HWY_INLINE hn::Vec<Words> cell_key(std::array<Vec, 3> const& point, double cells_per_m) {
+  return hn::Or(hn::ShiftLeft<42>(cells_along_axis(point[0], cells_per_m)),
+                hn::Or(hn::ShiftLeft<21>(cells_along_axis(point[1], cells_per_m)),
+                       cells_along_axis(point[2], cells_per_m)));
+}
+
+HWY_INLINE Vec moved(std::array<Vec, 3> const& point, std::array<float, 4> const& row) {
+  Floats const d;
+  Vec const turned = hn::Add(
+      hn::Mul(point[0], hn::Set(d, row[0])),
+      hn::Add(hn::Mul(point[1], hn::Set(d, row[1])), hn::Mul(point[2], hn::Set(d, row[2]))));
+  return hn::Add(turned, hn::Set(d, row[3]));
+}
+
+// v - v is 0 where v is finite, else NaN.
+HWY_INLINE Vec zero_or_nan(std::array<Vec, 3> const& point) {
+  return hn::Add(hn::Sub(point[0], point[0]),
+                 hn::Add(hn::Sub(point[1], point[1]), hn::Sub(point[2], point[2])));
+}
+
+// Moves the points, finds the keys of their cells (kNoCell where a coordinate is not finite) and
+// widens the bounds. The last vector may run over: what is there must be NaN.
+void place(CellSums::Chunk& chunk, std::size_t count, CellSums::Placement& placement) {
+  Floats const d;
+  auto const none = hn::Set(Words(), CellSums::kNoCell);
+  std::array<Vec, 3> min;
+  std::array<Vec, 3> max;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    min[axis] = hn::LoadU(d, placement.min[axis].data());
+    max[axis] = hn::LoadU(d, placement.max[axis].data());
+  }
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    std::array<Vec, 3> point;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      point[axis] = hn::LoadU(d, chunk.points[axis].data() + i);
+    }
+    if (placement.moves) {
+      point = {moved(point, placement.motion[0]), moved(point, placement.motion[1]),
+               moved(point, placement.motion[2])};
+    }
+    Vec const validity = zero_or_nan(point);
+    auto const finite = hn::Eq(validity, hn::Zero(d));
+    auto const finite_word =
+        hn::RebindMask(Words(), hn::Eq(hn::PromoteTo(Doubles(), validity), hn::Zero(Doubles())));
+    hn::StoreU(hn::IfThenElse(finite_word, cell_key(point, placement.cells_per_m), none), Words(),
+               chunk.keys.data() + i);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      hn::StoreU(point[axis], d, chunk.points[axis].data() + i);
+      min[axis] = hn::Min(min[axis], hn::IfThenElse(finite, point[axis], min[axis]));
+      max[axis] = hn::Max(max[axis], hn::IfThenElse(finite, point[axis], max[axis]));
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    hn::StoreU(min[axis], d, placement.min[axis].data());
+    hn::StoreU(max[axis], d, placement.max[axis].data());
+  }
+}
+
+}  // namespace credo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace credo {
+
+HWY_EXPORT(place);
+
+CellSums::CellSums(float spacing_m) {
+  if (!(spacing_m > 0.0F) || !std::isfinite(spacing_m)) {
+    throw std::logic_error("thinning: spacing_m is " + std::to_string(spacing_m));
+  }
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  placement_.cells_per_m = 1.0 / static_cast<double>(spacing_m);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    placement_.min[axis].fill(kInf);
+    placement_.max[axis].fill(-kInf);
+  }
+}
+
+CellSums::CellSums(float spacing_m, Se3 const& T_grid_points) : CellSums(spacing_m) {
+  Eigen::Matrix4f const matrix = T_grid_points.matrix().cast<float>();
+  placement_.moves = true;
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    for (Eigen::Index column = 0; column < 4; ++column) {
+      placement_.motion[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =
+          matrix(row, column);
+    }
+  }
+}
+
+// The slot of a cell, or the free one where it belongs. Open addressing with linear probing:
+// successive points mostly fall into the same few cells, so that they stay in cache.
+std::size_t CellSums::slot_of(std::uint64_t key) const {
+  // Fibonacci hashing: the upper bits of the product depend on all bits of the key.
+  std::size_t slot =
+      (key * 0x9E3779B97F4A7C15U) >> (64U - static_cast<unsigned>(std::countr_zero(slots_.size())));
+  while (slots_[slot] != 0 && cells_[slots_[slot] - 1].key != key) {
+    slot = (slot + 1) & (slots_.size() - 1);
+  }
+  return slot;
+}
+
+CellSums::Cell& CellSums::cell_of(std::uint64_t key) {
+  std::uint32_t& slot = slots_[slot_of(key)];
+  if (slot != 0) {
+    return cells_[slot - 1];
+  }
+  Cell& cell = cells_.emplace_back();
+  cell.key = key;
+  slot = static_cast<std::uint32_t>(cells_.size());
+  if (2 * cells_.size() > slots_.size()) {
+    grow();
+  }
+  return cell;
+}
+
+void CellSums::grow() {
+  slots_.assign(4 * slots_.size(), 0);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    slots_[slot_of(cells_[i].key)] = static_cast<std::uint32_t>(i + 1);
+  }
+}
+
+void CellSums::add_chunk(Chunk& chunk, std::size_t count) {
+  auto& [x, y, z] = chunk.points;
+  for (std::size_t i = count; i % kLanes != 0; ++i) {
+    x[i] = y[i] = z[i] = kNaN;
+  }
+  HWY_DYNAMIC_DISPATCH(place)(chunk, count, placement_);
+  for (std::size_t i = 0; i < count;) {
+    std::uint64_t const key = chunk.keys[i];
+    if (key == kNoCell) {
+      ++i;
+      continue;
+    }
+    // Neighbours in the image mostly share their cell: it is looked up once for all of them.
+    Cell& cell = cell_of(key);
+    std::size_t const first = i;
+    auto [sum_x, sum_y, sum_z] = cell.sum;
+    do {
+      sum_x += static_cast<double>(x[i]);
+      sum_y += static_cast<double>(y[i]);
+      sum_z += static_cast<double>(z[i]);
+      ++i;
+    } while (i < count && chunk.keys[i] == key);
+    cell.sum = {sum_x, sum_y, sum_z};
+    cell.count += static_cast<double>(i - first);
+  }
+}
+
+void CellSums::add(PointSpans const& points) {
+  Chunk chunk;
+  for (std::size_t begin = 0; begin < points.x.size(); begin += kChunk) {
+    std::size_t const count = std::min(kChunk, points.x.size() - begin);
+    std::copy_n(points.x.data() + begin, count, chunk.points[0].data());
+    std::copy_n(points.y.data() + begin, count, chunk.points[1].data());
+    std::copy_n(points.z.data() + begin, count, chunk.points[2].data());
+    add_chunk(chunk, count);
+  }
+}
+
+void CellSums::add(std::span<Eigen::Vector3f const> points) {
+  Chunk chunk;
+  for (std::size_t begin = 0; begin < points.size(); begin += kChunk) {
+    std::size_t const count = std::min(kChunk, points.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      Eigen::Vector3f const& point = points[begin + i];
+      chunk.points[0][i] = point.x();
+      chunk.points[1][i] = point.y();
+      chunk.points[2][i] = point.z();
+    }
+    add_chunk(chunk, count);
+  }
+}
+
+Eigen::Vector3f CellSums::Cell::mean() const {
+  return (Eigen::Vector3d(sum[0], sum[1], sum[2]) / count).cast<float>();
+}
+
+void CellSums::append_means(std::size_t first, PointList& means) const {
+  means.reserve(means.size() + cells_.size() - first);
+  for (std::size_t i = first; i < cells_.size(); ++i) {
+    means.push_back(cells_[i].mean());
+  }
+}
+
+Eigen::Vector3f CellSums::mean() const {
+  Cell all;
+  for (Cell const& cell : cells_) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      all.sum[axis] += cell.sum[axis];
+    }
+    all.count += cell.count;
+  }
+  return all.mean();
+}
+
+Eigen::AlignedBox3f CellSums::bounds() const {
+  Eigen::AlignedBox3f bounds;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    auto const i = static_cast<Eigen::Index>(axis);
+    bounds.min()[i] = std::ranges::min(placement_.min[axis]);
+    bounds.max()[i] = std::ranges::max(placement_.max[axis]);
+  }
+  return cells_.empty() ? Eigen::AlignedBox3f() : bounds;
+}
+
+}  // namespace credo
+#endif

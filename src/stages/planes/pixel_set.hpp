@@ -1,0 +1,80 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace credo {
+
+/// Some of an image's pixels: one bit each in raster order, 64 a word, so that passes skip what has
+/// gone a word at a time.
+class PixelSet {
+public:
+  static constexpr std::size_t kWordBits = 64;
+
+  /// No pixel yet, of an image of so many.
+  explicit PixelSet(std::size_t pixels) : words_((pixels + kWordBits - 1) / kWordBits, 0) {}
+
+  /// Bits beyond the last pixel are 0.
+  [[nodiscard]] std::span<std::uint64_t> words() { return words_; }
+  [[nodiscard]] std::span<std::uint64_t const> words() const { return words_; }
+
+  [[nodiscard]] bool contains(std::size_t pixel) const {
+    return ((words_[pixel / kWordBits] >> (pixel % kWordBits)) & 1U) != 0;
+  }
+  void insert(std::size_t pixel) {
+    words_[pixel / kWordBits] |= std::uint64_t{1} << (pixel % kWordBits);
+  }
+  void remove(PixelSet const& others) {
+    for (std::size_t w = 0; w < words_.size(); ++w) {
+      words_[w] &= ~others.words_[w];
+    }
+  }
+
+  /// Calls `visit(pixel)` for every `step`-th, in raster order, beginning with the first.
+  template <typename Visit>
+  void for_every(std::size_t step, Visit const& visit) const {
+    std::size_t skip = 0;  // pixels to pass over before the next visit
+    for (std::size_t w = 0; w < words_.size(); ++w) {
+      std::uint64_t rest = words_[w];
+      auto count = static_cast<std::size_t>(std::popcount(rest));
+      for (; skip < count; count -= skip + 1, skip = step - 1) {
+        for (std::size_t k = 0; k < skip; ++k) {
+          rest &= rest - 1;
+        }
+        visit(w * kWordBits + static_cast<std::size_t>(std::countr_zero(rest)));
+        rest &= rest - 1;
+      }
+      skip -= count;
+    }
+  }
+
+  /// Calls `visit(pixel)` for each, in raster order.
+  template <typename Visit>
+  void for_each(Visit const& visit) const {
+    for (std::size_t w = 0; w < words_.size(); ++w) {
+      for (std::uint64_t rest = words_[w]; rest != 0; rest &= rest - 1) {
+        visit(w * kWordBits + static_cast<std::size_t>(std::countr_zero(rest)));
+      }
+    }
+  }
+
+private:
+  std::vector<std::uint64_t> words_;
+};
+
+/// Pixels, and how many they are.
+struct CountedPixels {
+  PixelSet pixels;
+  std::size_t count = 0;
+
+  /// Takes out some of them: `others` must be a part of these.
+  void remove(CountedPixels const& others) {
+    pixels.remove(others.pixels);
+    count -= others.count;
+  }
+};
+
+}  // namespace credo

@@ -1,0 +1,74 @@
+// The same bytes at any number of threads, and from the specification that runs without a graph.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "config/yaml_config.hpp"
+#include "end_to_end/program.hpp"
+#include "graph/read_ahead.hpp"
+#include "graph/run_once.hpp"
+#include "io/belief_json.hpp"
+#include "io/dataset.hpp"
+#include "sim/scene.hpp"
+#include "sim/sim_source.hpp"
+#include "support/recordings.hpp"
+
+namespace credo {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// belief.jsonl as run_once gives it.
+std::vector<std::string> specified_lines(std::unique_ptr<FrameSource> opened, int frames,
+                                         PipelineConfig const& config) {
+  ReadAhead source(std::move(opened), frames);
+  WorldLevel const level = find_level_ahead(source, config.pose);
+  auto const prior = std::make_shared<BeliefState const>();
+  std::vector<std::string> lines;
+  RunSink const sink = {[&](FrameResult const& result) -> Delivery {
+                          return [&lines, result] { lines.push_back(belief_json(*result.belief)); };
+                        },
+                        [](FrameFailure const&) {}};
+  run_once(source, make_stages(config, level, prior), sink, config.graph, prior, {});
+  return lines;
+}
+
+void expect_same_at_any_thread_count(std::string const& source, int frames,
+                                     std::vector<std::string> const& expected) {
+  ASSERT_EQ(expected.size(), static_cast<std::size_t>(frames));
+  for (int const threads : {1, 2, 4}) {
+    test::TempFolder const folder;
+    test::Ended const ended =
+        test::credo({"run", "--source", source, "--frames", std::to_string(frames), "--out",
+                     folder.path().string(), "--set", "graph.threads=" + std::to_string(threads)});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(test::read_lines(folder / "belief.jsonl"), expected) << threads << " threads";
+  }
+}
+
+TEST(Determinism, SimulatedRooms) {
+  for (char const* const name : {"first-light", "wall-and-floor", "table-before-wall"}) {
+    Scene scene;
+    load_config(fields(scene), {find_scene(name)}, {});
+    auto source = std::make_unique<SimSource>(scene, PoseConfig{});
+    int const frames = std::min(6, static_cast<int>(source->frame_count()));
+    expect_same_at_any_thread_count(std::string("sim:") + name, frames,
+                                    specified_lines(std::move(source), frames, {}));
+  }
+}
+
+TEST(Determinism, FramesOfTheKitchen) {
+  CREDO_REQUIRE_RECORDING("kitchen");
+  fs::path const folder = test::recordings() / "kitchen";
+  constexpr int kFrames = 12;
+  OpenedSource opened = open_dataset(folder, {}, {});
+  expect_same_at_any_thread_count("dataset:" + folder.string(), kFrames,
+                                  specified_lines(std::move(opened.source), kFrames, {}));
+}
+
+}  // namespace
+}  // namespace credo

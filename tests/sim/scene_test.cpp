@@ -1,0 +1,154 @@
+// Scenes are files that people write: what is wrong with one is told in one line.
+#include "sim/scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <string>
+
+#include "config/yaml_config.hpp"
+#include "core/error.hpp"
+#include "sim/scenes.hpp"
+#include "support/temp_folder.hpp"
+
+namespace credo::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+
+std::string error_of(std::function<void()> const& work) {
+  try {
+    work();
+  } catch (InputError const& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+Scene good_scene() {
+  Scene scene = small_scene({thing("floor", SceneShape::kBox, {8, 8, 0.05}, {0, 0, -0.05}),
+                             thing("ball", SceneShape::kSphere, {0.1}, {2, 0, 0})});
+  scene.camera.path = {{0, {0, 0, 1}, {2, 0, 0}}, {1, {0, 1, 1}, {2, 0, 0}}};
+  return scene;
+}
+
+std::string check_error(std::function<void(Scene&)> const& spoil) {
+  Scene scene = good_scene();
+  spoil(scene);
+  return error_of([&] { check_scene(scene); });
+}
+
+TEST(Scene, IsReadFromYaml) {
+  TempFolder const folder;
+  write_text(folder / "a.yaml", R"(
+things:
+  - {name: table, kind: object, shape: table, size_m: [0.8, 1.2, 0.72, 0.04, 0.06], position_m: [2, 0, 0], rpy_deg: [0, 0, 30], color: [1, 2, 3], checker_m: 0.1}
+  - {name: mug, shape: cylinder, size_m: [0.04, 0.1]}
+camera:
+  width_px: 320
+  frames_per_s: 15
+  path:
+    - {time_s: 0.5, position_m: [0, 1, 2], look_at_m: [3, 4, 5]}
+)");
+  Scene scene;
+  load_config(fields(scene), {folder / "a.yaml"}, {});
+  ASSERT_EQ(scene.things.size(), 2U);
+  SceneThing const& table = scene.things[0];
+  EXPECT_EQ(table.kind, SceneKind::kObject);
+  EXPECT_EQ(table.shape, SceneShape::kTable);
+  EXPECT_THAT(table.size_m, ElementsAre(0.8, 1.2, 0.72, 0.04, 0.06));
+  EXPECT_THAT(table.rpy_deg, ElementsAre(0, 0, 30));
+  EXPECT_THAT(table.color, ElementsAre(1, 2, 3));
+  EXPECT_EQ(table.checker_m, 0.1);
+  EXPECT_EQ(scene.things[1].kind, SceneKind::kStuff);
+  EXPECT_EQ(scene.camera.width_px, 320);
+  EXPECT_EQ(scene.camera.frames_per_s, 15.0);
+  ASSERT_EQ(scene.camera.path.size(), 1U);
+  EXPECT_EQ(scene.camera.path[0].time_s, 0.5);
+  EXPECT_THAT(scene.camera.path[0].look_at_m, ElementsAre(3, 4, 5));
+}
+
+TEST(Scene, YamlErrorsSayWhere) {
+  TempFolder const folder;
+  write_text(folder / "a.yaml",
+             "things:\n  - {name: a, shape: cone}\n  - {name: b, size_m: [0.1, -1]}\n"
+             "  - {nmae: c}\n  - {name: d, position_m: [1, 2]}\ncamera:\n  width_px: 0\n");
+  Scene scene;
+  std::string const file = (folder / "a.yaml").string();
+  EXPECT_EQ(error_of([&] { load_config(fields(scene), {file}, {}); }),
+            file + ":2:15: things[0].shape = cone: must be one of box, cylinder, sphere, table\n" +
+                file + ":3:15: things[1].size_m[1] = -1: must be in [0.0001, 1000] m\n" +  //
+                file + ":4:6: unknown key things[2].nmae (did you mean name?)\n" +         //
+                file + ":5:15: things[3].position_m: must be a list of 3 numbers\n" +      //
+                file + ":7:3: camera.width_px = 0: must be in [1, 4096] px");
+}
+
+TEST(Scene, ThatIsCompletePasses) {
+  EXPECT_EQ(check_error([](Scene&) {}), "no error");
+}
+
+TEST(Scene, WithoutThingsOrPathIsRefused) {
+  EXPECT_EQ(check_error([](Scene& scene) { scene.things.clear(); }), "scene test: has no things");
+  EXPECT_EQ(check_error([](Scene& scene) { scene.camera.path.clear(); }),
+            "scene test: camera.path needs at least one waypoint");
+}
+
+TEST(Scene, NamesAreNeededAndUnique) {
+  EXPECT_EQ(check_error([](Scene& scene) { scene.things[1].name = "floor"; }),
+            "scene test: every thing needs a name of its own, 'floor' is not");
+  EXPECT_EQ(check_error([](Scene& scene) { scene.things[1].name = ""; }),
+            "scene test: every thing needs a name of its own, '' is not");
+}
+
+TEST(Scene, SizesAreThoseOfTheShape) {
+  EXPECT_EQ(check_error([](Scene& scene) { scene.things[1].shape = SceneShape::kTable; }),
+            "scene test: ball: its shape needs 5 numbers in size_m, has 1");
+  EXPECT_EQ(check_error([](Scene& scene) { scene.things[1].size_m.clear(); }),
+            "scene test: ball: its shape needs 1 numbers in size_m, has 0");
+  EXPECT_EQ(check_error([](Scene& scene) { scene.things[0].size_m[2] = 0; }),
+            "scene test: floor: every number of size_m must be positive");
+}
+
+TEST(Scene, TheCameraHasAWayToGo) {
+  EXPECT_EQ(check_error([](Scene& scene) { scene.camera.path[1].time_s = 0; }),
+            "scene test: camera.path[1]: time_s must rise");
+  EXPECT_EQ(check_error([](Scene& scene) {
+              scene.camera.path[1].look_at_m = {0, 1, 1};
+            }),
+            "scene test: camera.path[1] looks at where it is");
+}
+
+TEST(Scene, IsFoundByNameOrFile) {
+  EXPECT_EQ(find_scene("first-light").filename(), "first-light.yaml");
+  TempFolder const folder;
+  write_text(folder / "mine.yaml", "");
+  EXPECT_EQ(find_scene((folder / "mine.yaml").string()), folder / "mine.yaml");
+  EXPECT_EQ(error_of([&] { find_scene("nowhere"); }),
+            "sim:nowhere: no such scene or file; scenes are first-light, table-before-wall, "
+            "wall-and-floor");
+  EXPECT_NE(error_of([&] { find_scene("../scenes/first-light"); }), "no error")
+      << "a name is no way into other folders";
+  EXPECT_NE(error_of([&] { find_scene(folder.path().string()); }), "no error");
+}
+
+TEST(Scene, EveryOneOfTheProjectIsGood) {
+  std::set<std::string> names;
+  for (auto const& entry : fs::directory_iterator(fs::path(CREDO_SOURCE_DIR) / "scenes")) {
+    Scene scene;
+    scene.name = entry.path().stem().string();
+    EXPECT_EQ(error_of([&] {
+                load_config(fields(scene), {entry.path()}, {});
+                check_scene(scene);
+              }),
+              "no error");
+    names.insert(scene.name);
+  }
+  EXPECT_TRUE(names.count("first-light") == 1);
+}
+
+}  // namespace
+}  // namespace credo::test
