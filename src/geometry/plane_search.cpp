@@ -215,12 +215,13 @@ std::optional<FoundPlane> find_largest_plane(PlaneSearchPoints const& points,
   if (!best) {
     return std::nullopt;
   }
-  // Least squares on the inliers moves the plane, which moves its inliers: two rounds settle it. A
-  // few inliers less are no reason to prefer the draw, which is as good as its three points; many
-  // less are: the fit then follows something else.
+  // Least squares on the inliers moves the plane, which moves its inliers, until it rests. A few
+  // inliers less are no reason to prefer the draw, which is as good as its points; many less are:
+  // the fit then follows something else.
+  constexpr int kMaxRounds = 8;
   constexpr double kStillTheSame = 0.95;
   FoundPlane found = inliers_of(*best, points, limits.max_angle_rad);
-  for (int round = 0; round < 2; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     std::optional<Plane> const refined = fit_plane(points, found.inliers, found.plane.normal);
     if (!refined) {
       break;
@@ -230,7 +231,11 @@ std::optional<FoundPlane> find_largest_plane(PlaneSearchPoints const& points,
         kStillTheSame * static_cast<double>(found.inlier_count)) {
       break;
     }
+    bool const rests = better.inliers == found.inliers;
     found = std::move(better);
+    if (rests) {
+      break;
+    }
   }
   return found;
 }

@@ -136,6 +136,9 @@ private:
     std::size_t const lanes = hn::Lanes(Floats());
     std::size_t u = 0;
     for (; u + lanes < width_; u += lanes) {
+      if (none_active(v, u)) {
+        continue;
+      }
       Step const step = link_at(v, u);
       tile_row_.add(u / kTile, step.point, step.mask);
       // Steps never straddle two words here.
@@ -154,6 +157,13 @@ private:
     put(v, width_ - lanes, step);
     Mask const done = hn::FirstN(Floats(), lanes - (width_ - u));
     tile_row_.add(u / kTile, step.point, hn::AndNot(done, step.mask));
+  }
+
+  // None of a step's pixels takes part, nor the one to their right, which ends its falling links.
+  [[nodiscard]] HWY_INLINE bool none_active(int v, std::size_t u) const {
+    std::uint8_t const* first = active_ + static_cast<std::size_t>(v) * width_ + u;
+    return std::all_of(first, first + hn::Lanes(Floats()) + 1,
+                       [](std::uint8_t active) { return active == 0; });
   }
 
   void put(int v, std::size_t u, Step const& step) {

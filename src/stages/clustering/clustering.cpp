@@ -38,8 +38,10 @@ Runs components_on(std::uint8_t surface, Frame const& frame, NormalMap const& no
   Grid<std::uint8_t> const& surfaces = segmentation.surfaces;
   Grid<std::uint8_t> active(labels.width(), labels.height());
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    bool const here = surfaces.empty() || surfaces[i] == surface;
-    active[i] = static_cast<std::uint8_t>(labels[i] == kUnassigned && here);
+    active[i] = static_cast<std::uint8_t>(labels[i] == kUnassigned);
+  }
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    active[i] &= static_cast<std::uint8_t>(surfaces[i] == surface);
   }
   return component_runs(frame.cloud_camera, normals, active,
                         {.radius_m = static_cast<float>(config.radius_m),

@@ -65,7 +65,7 @@ struct StuffFusionConfig {
   double box_margin_m = 0.02;
   /// ICP sees at most as many points of a cluster, 8 or more, thinned from `point_spacing_m`
   /// upward.
-  int max_icp_points = 128;
+  int max_icp_points = 64;
   double point_spacing_m = 0.02;
   int max_icp_iterations = 10;
   double min_icp_step_m = 1e-3;
