@@ -103,6 +103,17 @@ private:
   std::mt19937 random_;
 };
 
+/// Draws after which a plane with such a share of the points would have been found with the
+/// confidence asked for (Fischler and Bolles 1981).
+double draws_needed(double share, int points_per_draw, PlaneSearchLimits const& limits) {
+  double const hit = std::pow(share, points_per_draw);
+  // The logarithms of 0 and 1 are no guide: all draws, or no more.
+  if (hit < 1e-12) {
+    return limits.max_hypotheses;
+  }
+  return hit > 1.0 - 1e-9 ? 0.0 : std::log(1.0 - limits.confidence) / std::log(1.0 - hit);
+}
+
 }  // namespace
 
 void PlaneSearchPoints::reserve(std::size_t count) {
@@ -207,9 +218,8 @@ std::optional<FoundPlane> find_largest_plane(PlaneSearchPoints const& points,
     if (!best || count > best_count) {
       best = plane;
       best_count = count;
-      double const share = static_cast<double>(count) / static_cast<double>(scored.size());
-      double const miss = 1.0 - std::pow(share, sampler.points_per_draw());
-      needed = miss < 1e-9 ? 0.0 : std::log(1.0 - limits.confidence) / std::log(miss);
+      needed = draws_needed(static_cast<double>(count) / static_cast<double>(scored.size()),
+                            sampler.points_per_draw(), limits);
     }
   }
   if (!best) {

@@ -69,6 +69,24 @@ TEST_P(PlaneSearch, FindsTheLargestAmongTwoAndClutter) {
   }
 }
 
+TEST(PlaneSearchDraws, GoOnAfterADrawThatNoPointAgreesWith) {
+  // Half of the points have normals that lie across all planes there are, and tolerances that not
+  // even they meet: a draw from one of them has no inlier at all.
+  PlaneSearchPoints points;
+  add_plane(points, tilted_plane(), 500, 0.003, 3);
+  for (int i = 0; i < 500; ++i) {
+    points.add({static_cast<float>(i), 50.0F, 7.0F}, {0.0F, 0.0F, 1.0F}, -1.0F, 1000);
+  }
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    PlaneSearchLimits limits;
+    limits.sampling = PlaneSampling::kPointAndNormal;
+    limits.seed = seed;
+    auto const found = find_largest_plane(points, limits);
+    ASSERT_TRUE(found);
+    EXPECT_GT(found->inlier_count, 490U) << "seed " << seed;
+  }
+}
+
 TEST_P(PlaneSearch, IsRepeatableForASeed) {
   PlaneSearchPoints points;
   add_clutter(points, 500, 1);
