@@ -1,5 +1,6 @@
 #include "graph/ledger.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -115,8 +116,9 @@ RunReport Ledger::close(bool wanted_frames) {
   metrics_.wall_s = std::chrono::duration<double>(Job::Clock::now() - started_).count();
   metrics_.cpu_s = cpu_seconds() - cpu_s_at_start_;
   metrics_.fps = static_cast<double>(metrics_.frames_out) / metrics_.wall_s;
-  metrics_.peak_rss_mb = peak_resident_mb();
   metrics_.rss_mb_end = resident_mb();
+  // The kernel counts both by itself, and the peak may lag behind by a few pages.
+  metrics_.peak_rss_mb = std::max(peak_resident_mb(), metrics_.rss_mb_end);
   if (metrics_.frames_in < kEarlyFrames) {
     metrics_.rss_mb_at_100 = metrics_.rss_mb_end;
   }
