@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -145,23 +147,29 @@ TEST(Pipeline, StagesWorkOnDifferentFramesAtOnceButOnNoMoreThreadsThanAsked) {
     config.threads = threads;
     config.belief_lag = 4;
     test::set_edges(config, threads);
-    std::atomic<int> busy = 0;
-    std::atomic<int> most = 0;
+    // Each waits until as many as there should be are at work, so that no scheduler, however busy,
+    // decides what is seen; and not for ever.
+    auto const deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    int busy = 0;
+    int most = 0;
     std::mutex mutex;
+    std::condition_variable all_there;
     std::set<std::thread::id> ids;
     Stages stages = test::fake_stages();
     auto const plain = stages.normals;
     stages.normals = [&](Frame const& frame) {
-      int const now = ++busy;
-      int before = most;
-      while (now > before && !most.compare_exchange_weak(before, now)) {
+      {
+        std::unique_lock lock(mutex);
+        ids.insert(std::this_thread::get_id());
+        most = std::max(most, ++busy);
+        all_there.notify_all();
+        all_there.wait_until(lock, deadline, [&] { return most >= threads; });
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       {
         std::scoped_lock const lock(mutex);
-        ids.insert(std::this_thread::get_id());
+        --busy;
       }
-      --busy;
       return plain(frame);
     };
     run(60, config, stages);

@@ -140,8 +140,7 @@ bool could_be_floor(Plane const& plane) {
 
 }  // namespace
 
-std::optional<Plane> find_floor(OrganizedCloud const& cloud,
-                                CameraIntrinsics const& /*intrinsics*/) {
+std::optional<Plane> find_floor(OrganizedCloud const& cloud) {
   CoarseCloud const coarse = coarse_cloud(cloud);
   PlaneSearchPoints remaining = coarse.search;
   PlaneSearchLimits limits{PlaneSampling::kPointAndNormal, 0.35, 0.9999, 400, 2048, 1};

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "core/cloud.hpp"
-#include "core/frame.hpp"
 #include "core/plane.hpp"
 
 namespace credo {
@@ -16,6 +15,6 @@ namespace credo {
 ///    or the picture ends, rather than a drop or a wide stretch without depth.
 /// Camera frame, normal up, refined to the sensor's noise. None where no plane qualifies, which is
 /// the usual answer to a table top that fills the view.
-std::optional<Plane> find_floor(OrganizedCloud const& cloud, CameraIntrinsics const& intrinsics);
+std::optional<Plane> find_floor(OrganizedCloud const& cloud);
 
 }  // namespace credo

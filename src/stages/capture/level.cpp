@@ -60,7 +60,7 @@ WorldLevel find_level(std::span<FramePtr const> frames, PoseConfig const& config
     return {Se3{}, true, "source taken as level (pose.level: off)"};
   }
   for (FramePtr const& frame : frames) {
-    if (std::optional<Plane> const floor = find_floor(frame->cloud_camera, frame->intrinsics)) {
+    if (std::optional<Plane> const floor = find_floor(frame->cloud_camera)) {
       return level_by_floor(transformed(frame->T_source_camera, *floor), frame->index,
                             floor->signed_distance_m(Eigen::Vector3d::Zero()));
     }

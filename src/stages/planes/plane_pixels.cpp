@@ -60,9 +60,10 @@ V dot(FloatPlane const& plane, float const* const arrays[3], std::size_t i) {
 /// The same operations as PlaneTolerance::distance_m.
 V tolerance_m(PlaneTolerance const& tolerance, V depth_m) {
   D const d;
-  V const beyond_m = hn::Sub(depth_m, hn::Set(d, 0.4F));
+  V const beyond_m = hn::Sub(depth_m, hn::Set(d, PlaneTolerance::kNearestM));
   V const noise_m =
-      hn::Add(hn::Set(d, 0.0012F), hn::Mul(hn::Set(d, 0.0019F), hn::Mul(beyond_m, beyond_m)));
+      hn::Add(hn::Set(d, PlaneTolerance::kLeastNoiseM),
+              hn::Mul(hn::Set(d, PlaneTolerance::kNoiseGrowthPerM), hn::Mul(beyond_m, beyond_m)));
   return hn::Max(hn::Set(d, tolerance.fixed_m),
                  hn::Mul(hn::Set(d, tolerance.noise_sigmas), noise_m));
 }

@@ -18,11 +18,17 @@ struct PlaneTolerance {
   /// least this; 0 or less leaves normals out.
   float min_cosine = 0.0F;
 
-  /// Axial noise at a depth, one standard deviation: Nguyen, Izadi and Lovell, "Modeling Kinect
-  /// Sensor Noise for Improved 3D Reconstruction and Tracking", 3DIMPVT 2012, equation 4.
+  /// Axial noise at depth z [m], one standard deviation: least + growth (z - nearest)^2. Nguyen,
+  /// Izadi and Lovell, "Modeling Kinect Sensor Noise for Improved 3D Reconstruction and Tracking",
+  /// 3DIMPVT 2012, equation 4.
+  static constexpr float kLeastNoiseM = 0.0012F;
+  static constexpr float kNoiseGrowthPerM = 0.0019F;
+  static constexpr float kNearestM = 0.4F;
+
   [[nodiscard]] float distance_m(float depth_m) const {
-    float const beyond_m = depth_m - 0.4F;
-    return std::max(fixed_m, noise_sigmas * (0.0012F + 0.0019F * (beyond_m * beyond_m)));
+    float const beyond_m = depth_m - kNearestM;
+    return std::max(fixed_m,
+                    noise_sigmas * (kLeastNoiseM + kNoiseGrowthPerM * (beyond_m * beyond_m)));
   }
 };
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "stages/planes/world_scene.hpp"
+#include "support/world_scene.hpp"
 
 namespace credo {
 namespace {
@@ -15,7 +15,7 @@ using test::shot_of;
 using test::WorldScene;
 
 std::optional<Plane> floor_in(Shot const& shot) {
-  return find_floor(shot.frame.cloud_camera, shot.frame.intrinsics);
+  return find_floor(shot.frame.cloud_camera);
 }
 
 /// The floor told in the world where it should be z = 0.
@@ -68,7 +68,7 @@ TEST(FloorSearch, TakesNoWallAndNoCeiling) {
 
 TEST(FloorSearch, FindsNothingInEmptyPictures) {
   for (auto const& [width, height] : {std::pair{0, 0}, {1, 1}, {64, 48}}) {
-    EXPECT_FALSE(find_floor(OrganizedCloud(width, height), CameraIntrinsics{}));
+    EXPECT_FALSE(find_floor(OrganizedCloud(width, height)));
   }
 }
 

@@ -19,7 +19,7 @@ FramePtr first_frame(std::string const& recording) {
 /// How high the camera stands above what find_floor takes for the floor of the first frame.
 std::optional<double> camera_height_m(std::string const& recording) {
   FramePtr const frame = first_frame(recording);
-  std::optional<Plane> const floor = find_floor(frame->cloud_camera, frame->intrinsics);
+  std::optional<Plane> const floor = find_floor(frame->cloud_camera);
   return floor ? std::optional(floor->signed_distance_m(Eigen::Vector3d::Zero())) : std::nullopt;
 }
 
@@ -47,7 +47,7 @@ TEST(LevelOfRecordings, NoTableTopIsAFloor) {
   OpenedSource const opened = open_dataset(test::recordings() / "osd", {}, {});
   for (std::size_t i = 0; i < opened.frame_count; ++i) {
     auto const frame = std::get<FramePtr>(opened.source->next());
-    EXPECT_FALSE(find_floor(frame->cloud_camera, frame->intrinsics).has_value()) << "osd " << i;
+    EXPECT_FALSE(find_floor(frame->cloud_camera).has_value()) << "osd " << i;
   }
 }
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "stages/planes/world_scene.hpp"
+#include "support/world_scene.hpp"
 
 namespace credo {
 namespace {

@@ -11,7 +11,7 @@
 #include "stages/normals/angles.hpp"
 #include "stages/normals/normals.hpp"
 #include "stages/normals/pca_normals.hpp"
-#include "stages/normals/scenes.hpp"
+#include "support/rendered_scene.hpp"
 
 namespace credo {
 namespace {

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "stages/normals/scenes.hpp"
+#include "support/rendered_scene.hpp"
 
 namespace credo {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "stages/normals/normals.hpp"
-#include "stages/normals/scenes.hpp"
 #include "support/literal_normals.hpp"
+#include "support/rendered_scene.hpp"
 
 namespace credo {
 namespace {

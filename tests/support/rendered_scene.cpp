@@ -1,4 +1,4 @@
-#include "stages/normals/scenes.hpp"
+#include "support/rendered_scene.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,8 +1,8 @@
-#include "stages/planes/world_scene.hpp"
+#include "support/world_scene.hpp"
 
 #include <Eigen/Geometry>
 
-#include "stages/normals/scenes.hpp"
+#include "support/rendered_scene.hpp"
 
 namespace credo::test {
 
