@@ -73,6 +73,10 @@ TEST(FusedFloor, IsFittedToItsPointsWhereTheyLieFarApart) {
       fused_floor(std::move(floor), told_with_slope(floor_patch({8, 0}, {8.2F, 2}, 0), 0.05), {});
   EXPECT_LT(std::abs(slope_along_x(*floor)), 0.001);
   EXPECT_NEAR(floor->height_m, 0.0, 1e-6);
+  // And two strips told level of which the far one lies 16 cm higher.
+  auto ramp = fused_floor(std::nullopt, floor_patch({0, 0}, {0.2F, 2}, 0), {});
+  ramp = fused_floor(std::move(ramp), floor_patch({8, 0}, {8.2F, 2}, 0.16F), {});
+  EXPECT_NEAR(slope_along_x(*ramp), 0.02, 0.001);
   // Something between them that lies 2 cm higher lifts the floor there, and tilts nothing.
   floor = fused_floor(std::move(floor), floor_patch({3.6F, 0}, {4.6F, 2}, 0.02F), {});
   EXPECT_LT(std::abs(slope_along_x(*floor)), 0.001);
