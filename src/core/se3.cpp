@@ -2,6 +2,7 @@
 
 #include <Eigen/SVD>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -68,6 +69,12 @@ Eigen::Vector3d so3_log(Eigen::Quaterniond const& rotation) {
     return 2.0 / cosine * v;
   }
   return 2.0 * std::atan2(sine, cosine) / sine * v;
+}
+
+Eigen::Quaterniond rotation_of_rpy_deg(Eigen::Vector3d const& rpy_deg) {
+  Eigen::Vector3d const turn_rad = rpy_deg * (std::numbers::pi / 180.0);
+  return so3_exp({0, 0, turn_rad.z()}) * so3_exp({0, turn_rad.y(), 0}) *
+         so3_exp({turn_rad.x(), 0, 0});
 }
 
 Se3 boxplus(Se3 const& mean, Vector6d const& error) {

@@ -38,6 +38,9 @@ Eigen::Quaterniond so3_exp(Eigen::Vector3d const& phi_rad);
 /// Rotation vector of least length, |phi| <= pi; inverse of so3_exp for |phi| < pi.
 Eigen::Vector3d so3_log(Eigen::Quaterniond const& rotation);
 
+/// Turns about the fixed axes x, then y, then z, degrees.
+Eigen::Quaterniond rotation_of_rpy_deg(Eigen::Vector3d const& rpy_deg);
+
 /// The fixed error convention at every boundary: p = p_mean + delta, R = exp(phi) R_mean, both
 /// along the axes of the frame in which the pose is given, order (delta [m], phi [rad]).
 Se3 boxplus(Se3 const& mean, Vector6d const& error);

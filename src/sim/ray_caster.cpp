@@ -14,7 +14,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sim/solid.hpp"
+#include "geometry/solid.hpp"
+#include "sim/thing.hpp"
 
 namespace credo {
 namespace {

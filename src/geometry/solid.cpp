@@ -1,8 +1,7 @@
-#include "sim/solid.hpp"
+#include "geometry/solid.hpp"
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace credo {
 namespace {
@@ -89,46 +88,7 @@ Eigen::AlignedBox3d bounds(SphereSolid const& sphere) {
   return {Eigen::Vector3d(-r, -r, 0), Eigen::Vector3d(r, r, 2 * r)};
 }
 
-std::vector<Solid> table_solids(std::vector<double> const& size_m) {
-  double const x = 0.5 * size_m[0];
-  double const y = 0.5 * size_m[1];
-  double const height = size_m[2];
-  double const underside = height - size_m[3];
-  double const leg = size_m[4];
-  std::vector<Solid> solids = {BoxSolid{{-x, -y, underside}, {x, y, height}}};
-  for (double const leg_x : {-x, x - leg}) {
-    for (double const leg_y : {-y, y - leg}) {
-      solids.emplace_back(BoxSolid{{leg_x, leg_y, 0}, {leg_x + leg, leg_y + leg, underside}});
-    }
-  }
-  return solids;
-}
-
 }  // namespace
-
-std::vector<Solid> solids_of(SceneThing const& thing) {
-  std::vector<double> const& s = thing.size_m;
-  switch (thing.shape) {
-    case SceneShape::kBox:
-      return {BoxSolid{{-0.5 * s[0], -0.5 * s[1], 0}, {0.5 * s[0], 0.5 * s[1], s[2]}}};
-    case SceneShape::kCylinder:
-      return {CylinderSolid{s[0], s[1]}};
-    case SceneShape::kSphere:
-      return {SphereSolid{s[0]}};
-    case SceneShape::kTable:
-      return table_solids(s);
-  }
-  return {};
-}
-
-Se3 pose_of(SceneThing const& thing) {
-  Eigen::Vector3d const turn_rad =
-      Eigen::Vector3d(thing.rpy_deg[0], thing.rpy_deg[1], thing.rpy_deg[2]) *
-      (std::numbers::pi / 180.0);
-  Eigen::Quaterniond const rotation =
-      so3_exp({0, 0, turn_rad.z()}) * so3_exp({0, turn_rad.y(), 0}) * so3_exp({turn_rad.x(), 0, 0});
-  return {rotation, {thing.position_m[0], thing.position_m[1], thing.position_m[2]}};
-}
 
 Eigen::AlignedBox3d bounds_of(Solid const& solid) {
   return std::visit([](auto const& body) { return bounds(body); }, solid);

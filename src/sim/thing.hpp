@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "core/se3.hpp"
+#include "core/solid.hpp"
+#include "sim/scene.hpp"
+
+namespace credo {
+
+/// The bodies that a thing is made of: one, or five for a table (its top, then its legs). The thing
+/// must have passed check_scene.
+std::vector<Solid> solids_of(SceneThing const& thing);
+
+/// T_world_thing.
+Se3 pose_of(SceneThing const& thing);
+
+}  // namespace credo
