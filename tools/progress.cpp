@@ -4,6 +4,8 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 
 namespace credo {
@@ -21,6 +23,10 @@ std::string counts_text(std::map<std::string, std::uint64_t> const& counts) {
   return text.empty() ? text : text + ")";
 }
 
+std::ptrdiff_t seen_objects(BeliefState const& belief) {
+  return std::ranges::count(belief.objects, Evidence::kSeen, &ObjectBelief::evidence);
+}
+
 void append_row(std::string& table, std::string const& name, DurationQuantiles const& times) {
   table += fmt::format("  {:<12}{:>8}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}\n", name, times.count,
                        times.p50_ms, times.p95_ms, times.p99_ms, times.max_ms);
@@ -32,6 +38,10 @@ Progress::Progress(std::optional<std::int64_t> frame_count)
     : terminal_(isatty(STDERR_FILENO) != 0), frame_count_(frame_count), last_shown_(Clock::now()) {}
 
 void Progress::show(FrameResult const& result) {
+  for (std::string const& line : detections_.told(*result.segmentation)) {
+    finish();
+    spdlog::warn(line);
+  }
   ++frames_since_;
   auto const now = Clock::now();
   auto const since = now - last_shown_;
@@ -40,11 +50,13 @@ void Progress::show(FrameResult const& result) {
   }
   BeliefState const& belief = *result.belief;
   std::string const of = frame_count_.has_value() ? fmt::format("/{}", *frame_count_) : "";
-  std::string const line = fmt::format(
-      "frame {}{}  {:.1f} fps  {:.0f} ms  {}, {} walls, {} stuff", number(belief.frame) + 1, of,
-      static_cast<double>(frames_since_) / std::chrono::duration<double>(since).count(),
-      std::chrono::duration<double, std::milli>(now - result.captured).count(),
-      belief.floor.has_value() ? "floor" : "no floor", belief.walls.size(), belief.stuff.size());
+  std::string const line =
+      fmt::format("frame {}{}  {:.1f} fps  {:.0f} ms  {}, {} walls, {} objects seen, {} stuff",
+                  number(belief.frame) + 1, of,
+                  static_cast<double>(frames_since_) / std::chrono::duration<double>(since).count(),
+                  std::chrono::duration<double, std::milli>(now - result.captured).count(),
+                  belief.floor.has_value() ? "floor" : "no floor", belief.walls.size(),
+                  seen_objects(belief), belief.stuff.size());
   fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\033[K" : "\n");
   std::fflush(stderr);
   line_open_ = terminal_;

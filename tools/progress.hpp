@@ -7,14 +7,15 @@
 #include <string>
 
 #include "core/frame_source.hpp"
+#include "detection_log.hpp"
 #include "graph/run_sink.hpp"
 #include "io/metrics.hpp"
 
 namespace credo {
 
 /// How a run shows itself to the person who started it, on stderr: one line that is redrawn where
-/// that is a terminal, a line every few seconds where it is not; lost frames in the log. Called by
-/// one thread at a time.
+/// that is a terminal, a line every few seconds where it is not; lost frames and refused detections
+/// in the log. Called by one thread at a time.
 class Progress {
 public:
   /// `frame_count` of a source that knows its end.
@@ -25,6 +26,8 @@ public:
   void lost(FrameFailure const& failure);
   /// Ends the redrawn line.
   void finish();
+  /// What became of detections; empty where nobody looked for objects.
+  [[nodiscard]] std::string detection_summary() const { return detections_.summary(); }
 
 private:
   using Clock = std::chrono::steady_clock;
@@ -35,6 +38,7 @@ private:
   std::int64_t frames_since_ = 0;
   bool line_open_ = false;
   std::map<std::string, int> lost_by_reason_;
+  DetectionLog detections_;
 };
 
 /// The table at the end of a run.

@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,8 +18,10 @@
 #include "config/yaml_config.hpp"
 #include "config_arguments.hpp"
 #include "core/error.hpp"
+#include "geometry/outline.hpp"
 #include "graph/pipeline.hpp"
 #include "graph/read_ahead.hpp"
+#include "known_objects.hpp"
 #include "progress.hpp"
 #include "run_output.hpp"
 #include "source_uri.hpp"
@@ -30,6 +33,8 @@ namespace {
 constexpr char const* kExamples = R"(Examples:
   credo run --source dataset:recordings/kitchen --out out/kitchen --dump labels,pictures
   credo run --source dataset:recordings/kitchen --frames 40 --set graph.threads=1
+  credo run --source sim:box-on-table --prior scenes/box-on-table.prior.yaml \
+      --set detector.kind=sim --out out/box --dump pictures
   credo run --source dataset:clouds --set capture.independent_frames=true --out out/clouds
 
 Into --out go belief.jsonl (one line a good frame), metrics.json, config.yaml (resolved), and with
@@ -69,10 +74,6 @@ void check_usage(RunCommand const& command) {
   if (!command.dump.empty() && !command.out.has_value()) {
     throw InputError("--dump has nowhere to write: add --out DIR");
   }
-  if (command.prior.has_value()) {
-    throw InputError("--prior " + command.prior->string() +
-                     ": this build knows no objects yet; leave it out to start from nothing");
-  }
 }
 
 void log_to_stderr() {
@@ -95,17 +96,49 @@ void log_start(std::vector<std::string> const& warnings, WorldLevel const& level
   spdlog::log(level.floor_found ? spdlog::level::info : spdlog::level::warn, level.note);
 }
 
+LoadedPrior prior_of(RunCommand const& command, PipelineConfig const& config) {
+  LoadedPrior loaded;
+  if (command.prior.has_value()) {
+    loaded = load_prior(*command.prior, config.fusion.prior_probability);
+  }
+  if (!loaded.prior.objects.empty() && config.detector.kind == DetectorKind::kNone) {
+    loaded.warnings.emplace_back(
+        "nobody looks for the prior's objects, so nothing is learnt of them: set detector.kind");
+  }
+  return loaded;
+}
+
+std::shared_ptr<KnownObjects const> known_objects(ObjectModels models, PipelineConfig const& config,
+                                                  std::string const& source_uri) {
+  auto known = std::make_shared<KnownObjects>();
+  known->models = std::move(models);
+  known->shapes = shapes_of(known->models);
+  known->detector = open_detector(config.detector, source_uri);
+  return known;
+}
+
+/// A prior given in the camera's frame needs to know where that camera is.
+BeliefPtr first_belief(ReadAhead& source, WorldLevel const& level, Prior const& prior) {
+  FramePtr const first = prior.frame == PriorFrame::kCamera ? source.first_frame() : nullptr;
+  Se3 const T_world_camera =
+      first != nullptr ? level.T_world_source * first->T_source_camera : Se3();
+  return std::make_shared<BeliefState const>(prior_belief(prior, T_world_camera));
+}
+
 int run(RunCommand const& command) {
   check_usage(command);
   log_to_stderr();
   StopOnSignal const signals;
   PipelineConfig config = resolved_config(command.config);
+  LoadedPrior loaded = prior_of(command, config);
+  auto const known = known_objects(std::move(loaded.models), config, command.source);
   OpenedSource opened = open_source(command.source, config.capture, config.pose);
+  std::ranges::move(opened.warnings, std::back_inserter(loaded.warnings));
   auto const frame_count = static_cast<std::int64_t>(opened.frame_count);
   ReadAhead source(std::move(opened.source), command.frames);
   Workers workers(config.graph.threads);
   WorldLevel const level = level_of(source, config, workers);
-  auto const prior = std::make_shared<BeliefState const>();
+  BeliefPtr const prior_world = first_belief(source, level, loaded.prior);
 
   // Nothing is written before all that can be checked has been, and bad input is told in one line.
   Dump const dump = dump_of(command);
@@ -113,12 +146,13 @@ int run(RunCommand const& command) {
   if (command.out.has_value()) {
     folder.emplace(*command.out, dump.labels, dump.pictures, config_yaml(fields(config)));
   }
-  log_start(opened.warnings, level);
+  log_start(loaded.warnings, level);
+  Outlines const outlines = outlines_of(known->models);
   Progress progress(std::min(frame_count, command.frames.value_or(frame_count)));
   RunReport const report =
-      run_pipeline(source, make_stages(config, level, prior),
-                   run_output(folder.has_value() ? &*folder : nullptr, dump, progress),
-                   config.graph, prior, workers, signals.token());
+      run_pipeline(source, make_stages(config, level, loaded.prior, known),
+                   run_output(folder.has_value() ? &*folder : nullptr, dump, outlines, progress),
+                   config.graph, prior_world, workers, signals.token());
   progress.finish();
   if (folder.has_value()) {
     folder->write_metrics(report.metrics);
@@ -126,7 +160,7 @@ int run(RunCommand const& command) {
   if (report.error != nullptr) {
     std::rethrow_exception(report.error);
   }
-  std::cout << summary_table(report.metrics);
+  std::cout << summary_table(report.metrics) << progress.detection_summary();
   return 0;
 }
 
@@ -140,7 +174,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
       ->required()
       ->type_name("URI");
   add_config_arguments(*sub, command->config);
-  sub->add_option("--prior", command->prior, "objects believed in before the first frame")
+  sub->add_option("--prior", command->prior, "known objects and roughly where they are (YAML)")
       ->type_name("FILE");
   sub->add_option("--frames", command->frames, "stop after so many frames, 1 or more")
       ->check(at_least(1))

@@ -18,7 +18,7 @@ struct Files {
   std::string line;
 };
 
-Files files_of(FrameResult const& result, Dump const& dump) {
+Files files_of(FrameResult const& result, Dump const& dump, Outlines const& outlines) {
   Files files;
   files.frame = result.frame->index;
   if (dump.labels) {
@@ -26,7 +26,7 @@ Files files_of(FrameResult const& result, Dump const& dump) {
   }
   if (dump.pictures) {
     files.picture =
-        encode_png_rgb(draw_picture(*result.frame, *result.segmentation, *result.belief));
+        encode_png_rgb(draw_picture(*result.frame, *result.segmentation, *result.belief, outlines));
   }
   files.line = belief_json(*result.belief);
   return files;
@@ -44,13 +44,14 @@ void write(RunFolder& folder, Files const& files, Dump const& dump) {
 
 }  // namespace
 
-RunSink run_output(RunFolder* folder, Dump const& dump, Progress& progress) {
+RunSink run_output(RunFolder* folder, Dump const& dump, Outlines const& outlines,
+                   Progress& progress) {
   RunSink sink;
-  sink.encode = [=, &progress](FrameResult const& result) -> Delivery {
+  sink.encode = [=, &outlines, &progress](FrameResult const& result) -> Delivery {
     if (folder == nullptr) {
       return [&progress, result] { progress.show(result); };
     }
-    auto const files = std::make_shared<Files const>(files_of(result, dump));
+    auto const files = std::make_shared<Files const>(files_of(result, dump, outlines));
     return [=, &progress] {
       write(*folder, *files, dump);
       progress.show(result);

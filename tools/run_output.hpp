@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/outline.hpp"
 #include "graph/run_sink.hpp"
 #include "io/run_folder.hpp"
 #include "progress.hpp"
@@ -12,8 +13,10 @@ struct Dump {
   bool pictures = false;
 };
 
-/// A sink that writes into `folder` where there is one and shows `progress`; both outlive it. A
+/// A sink that writes into `folder` where there is one and shows `progress`; both, and `outlines`
+/// (known objects, for pictures), outlive it. A
 /// frame's images are written before its line, so that whoever reads the line finds them.
-RunSink run_output(RunFolder* folder, Dump const& dump, Progress& progress);
+RunSink run_output(RunFolder* folder, Dump const& dump, Outlines const& outlines,
+                   Progress& progress);
 
 }  // namespace credo

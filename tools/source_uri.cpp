@@ -6,22 +6,25 @@
 
 #include "config/yaml_config.hpp"
 #include "core/error.hpp"
-#include "sim/scene.hpp"
 #include "sim/sim_source.hpp"
 
 namespace credo {
 namespace {
 
 OpenedSource open_sim(std::string const& name_or_file, PoseConfig const& pose) {
-  Scene scene;
-  scene.name = name_or_file;
-  load_config(fields(scene), {find_scene(name_or_file)}, {});
-  auto source = std::make_unique<SimSource>(scene, pose);
+  auto source = std::make_unique<SimSource>(load_scene(name_or_file), pose);
   std::size_t const frame_count = source->frame_count();
   return {std::move(source), {}, frame_count};
 }
 
 }  // namespace
+
+Scene load_scene(std::string const& name_or_file) {
+  Scene scene;
+  scene.name = name_or_file;
+  load_config(fields(scene), {find_scene(name_or_file)}, {});
+  return scene;
+}
 
 OpenedSource open_source(std::string const& uri, CaptureConfig const& capture,
                          PoseConfig const& pose) {

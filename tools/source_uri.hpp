@@ -4,8 +4,12 @@
 
 #include "core/capture_config.hpp"
 #include "io/dataset.hpp"
+#include "sim/scene.hpp"
 
 namespace credo {
+
+/// A scene by name or file. Throws InputError where there is none or it is not right.
+Scene load_scene(std::string const& name_or_file);
 
 /// Opens what `--source` names: `dataset:DIR`, `sim:NAME-or-FILE`. Throws InputError where it
 /// cannot be opened or is of no kind known.

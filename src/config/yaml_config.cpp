@@ -43,14 +43,39 @@ std::string suggestion(std::string const& key, FieldList const& fields) {
   return best.empty() ? "" : " (did you mean " + best + "?)";
 }
 
-/// "3", "1 to 5" or "at least 2".
+/// "a list of 3 numbers", "a list of 1 to 5 numbers", "one number or a list of 3".
 std::string count_text(NumbersTarget const& target) {
-  std::string least = std::to_string(target.min_count);
+  std::string const most = std::to_string(target.max_count);
+  if (target.one_for_all) {
+    return "one number or a list of " + most;
+  }
   if (target.min_count == target.max_count) {
-    return least;
+    return "a list of " + most + " numbers";
   }
   bool const bounded = target.max_count != std::numeric_limits<std::size_t>::max();
-  return bounded ? least + " to " + std::to_string(target.max_count) : "at least " + least;
+  std::string const least = std::to_string(target.min_count);
+  return "a list of " + (bounded ? least + " to " + most : "at least " + least) + " numbers";
+}
+
+/// What a value written in this form goes to.
+Field in_form(Field const& field, OneOfTarget const& one_of, Form form) {
+  Field result = field;
+  switch (form) {
+    case Form::kWord:
+      result.target = one_of.word;
+      break;
+    case Form::kMap:
+      result.target = one_of.map;
+      break;
+    case Form::kList:
+      result.target = one_of.list;
+      break;
+  }
+  return result;
+}
+
+Form form_of(YAML::Node const& value) {
+  return value.IsMap() ? Form::kMap : value.IsSequence() ? Form::kList : Form::kWord;
 }
 
 /// Walks a YAML tree beside a field list and collects what does not fit.
@@ -94,6 +119,9 @@ private:
       apply_numbers(field, *numbers, key, value, path);
     } else if (auto const* list = std::get_if<ListTarget>(&field.target)) {
       apply_list(*list, key, value, path);
+    } else if (auto const* one_of = std::get_if<std::shared_ptr<OneOfTarget>>(&field.target)) {
+      *(*one_of)->form = form_of(value);
+      apply_field(in_form(field, **one_of, form_of(value)), key, value, path);
     } else if (!value.IsScalar()) {
       add(key, path + ": must be a single value");
     } else {
@@ -112,27 +140,41 @@ private:
     }
     list.clear();
     for (std::size_t i = 0; i < value.size(); ++i) {
-      apply(list.append(), value[i], path + "[" + std::to_string(i) + "]");
+      FieldList const item = list.append();
+      std::string const item_path = path + "[" + std::to_string(i) + "]";
+      // What has one member may be written without its name.
+      if (item.size() == 1 && value[i].IsSequence()) {
+        apply_field(item.front(), value[i], value[i], item_path);
+      } else {
+        apply(item, value[i], item_path);
+      }
     }
   }
 
   void apply_numbers(Field const& field, NumbersTarget const& target, YAML::Node const& key,
                      YAML::Node const& value, std::string const& path) {
     std::vector<double> numbers;
-    bool sound = value.IsSequence();
-    for (std::size_t i = 0; sound && i < value.size(); ++i) {
+    bool const one_for_all = target.one_for_all && value.IsScalar();
+    std::size_t const written = one_for_all ? 1 : value.IsSequence() ? value.size() : 0;
+    for (std::size_t i = 0; i < written; ++i) {
+      YAML::Node const& node = one_for_all ? value : value[i];
       double number = 0.0;
       Field const element{field.name, &number, field.range, field.unit, field.text};
-      std::string const text = value[i].IsScalar() ? value[i].Scalar() : "?";
+      std::string const text = node.IsScalar() ? node.Scalar() : "?";
       std::string const error = set_from_text(element, text);
       if (!error.empty()) {
-        add(key, path + "[" + std::to_string(i) + "] = " + text + ": " + error);
+        std::string const place = one_for_all ? "" : "[" + std::to_string(i) + "]";
+        add(key, path + place + " = " + text + ": " + error);
         return;
       }
       numbers.push_back(number);
     }
-    if (!sound || numbers.size() < target.min_count || numbers.size() > target.max_count) {
-      add(key, path + ": must be a list of " + count_text(target) + " numbers");
+    if (one_for_all) {
+      numbers.resize(target.max_count, numbers.front());
+    }
+    bool const is_list = one_for_all || value.IsSequence();
+    if (!is_list || numbers.size() < target.min_count || numbers.size() > target.max_count) {
+      add(key, path + ": must be " + count_text(target));
       return;
     }
     *target.values = std::move(numbers);
@@ -231,6 +273,8 @@ void print_yaml(FieldList const& fields, std::string const& indent, std::string&
         out += indent + "  -\n";
         print_yaml(item, indent + "    ", out);
       }
+    } else if (auto const* one_of = std::get_if<std::shared_ptr<OneOfTarget>>(&field.target)) {
+      print_yaml({in_form(field, **one_of, *(*one_of)->form)}, indent, out);
     } else {
       out += indent + field.name + ": " + value_text(field) + "  # " + comment_of(field) + "\n";
     }

@@ -54,6 +54,12 @@ struct WallBelief {
   std::optional<LabelCode> label;
 };
 
+/// When and from where something was seen.
+struct Look {
+  std::int64_t stamp_ns = 0;
+  Eigen::Vector3d camera_world = Eigen::Vector3d::Zero();
+};
+
 /// A known object: pose distribution and the probability that it is there (thesis 4.1).
 struct ObjectBelief {
   std::string id;
@@ -62,6 +68,8 @@ struct ObjectBelief {
   PoseDistribution pose_world;
   Evidence evidence = Evidence::kNotSeen;
   std::optional<LabelCode> label;
+  /// When its pose was updated last; none while it is the prior's.
+  std::optional<Look> last_seen;
 };
 
 /// Something seen but not known: its clusters over time and the probability that it is there (4.3).

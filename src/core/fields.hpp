@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -41,18 +43,33 @@ struct NumbersTarget {
   std::vector<double>* values = nullptr;
   std::size_t min_count = 0;
   std::size_t max_count = std::numeric_limits<std::size_t>::max();
+  /// A single number may stand for max_count equal ones.
+  bool one_for_all = false;
 };
+
+/// How a value that may be written in several ways is written.
+enum class Form : std::uint8_t { kWord, kMap, kList };
+
+struct OneOfTarget;
 
 /// One member: its key in YAML, where it lives, its unit ("" for none), allowed range (numbers) and
 /// one line of text.
 struct Field {
   using Target = std::variant<bool*, int*, float*, double*, std::string*, NumbersTarget,
-                              ChoiceTarget, FieldList, ListTarget>;
+                              ChoiceTarget, FieldList, ListTarget, std::shared_ptr<OneOfTarget>>;
   std::string name;
   Target target;
   Range range;
   std::string unit;
   std::string text;
+};
+
+/// A value that is a word, a map or a list, as it is written; `form` tells which.
+struct OneOfTarget {
+  Form* form = nullptr;
+  ChoiceTarget word;
+  FieldList map;
+  ListTarget list;
 };
 
 /// A member that is itself a described struct.
@@ -62,19 +79,26 @@ inline Field section(std::string name, FieldList members, std::string text) {
 
 /// An enum whose values count from 0 in the order of `words`.
 template <typename Enum>
-Field choice(std::string name, Enum& value, std::vector<std::string> words, std::string text) {
-  ChoiceTarget target{
+ChoiceTarget choice_target(Enum& value, std::vector<std::string> words) {
+  return {
       std::move(words),
       [&value] { return static_cast<std::size_t>(value); },
       [&value](std::size_t i) { value = static_cast<Enum>(i); },
   };
-  return {std::move(name), Field::Target(std::move(target)), {}, "", std::move(text)};
+}
+template <typename Enum>
+Field choice(std::string name, Enum& value, std::vector<std::string> words, std::string text) {
+  return {std::move(name),
+          Field::Target(choice_target(value, std::move(words))),
+          {},
+          "",
+          std::move(text)};
 }
 
 /// A list of structs, each described by `fields(T&)`.
 template <typename T>
-Field list_of(std::string name, std::vector<T>& values, std::string text) {
-  ListTarget target{
+ListTarget list_target(std::vector<T>& values) {
+  return {
       [&values] { return fields(values.emplace_back()); },
       [&values] {
         std::vector<FieldList> lists;
@@ -86,7 +110,10 @@ Field list_of(std::string name, std::vector<T>& values, std::string text) {
       },
       [&values] { values.clear(); },
   };
-  return {std::move(name), Field::Target(std::move(target)), {}, "", std::move(text)};
+}
+template <typename T>
+Field list_of(std::string name, std::vector<T>& values, std::string text) {
+  return {std::move(name), Field::Target(list_target(values)), {}, "", std::move(text)};
 }
 
 }  // namespace credo

@@ -13,6 +13,7 @@
 #include "core/frame.hpp"
 #include "core/grid.hpp"
 #include "core/label.hpp"
+#include "core/object_model.hpp"
 #include "core/plane.hpp"
 
 namespace credo {
@@ -41,12 +42,31 @@ struct WallObservation {
 
 /// A known object that the detector found and the gate let pass.
 struct ObjectObservation {
+  /// kFirstObject + object.
   LabelCode label = kFirstObject;
   /// Position of the object in BeliefState::objects of the belief that was used.
   std::size_t object = 0;
   std::string object_id;
+  /// Of its type: the model that it looks like.
+  std::string type;
+  /// As detected.
   PoseDistribution pose_world;
+  /// Of its model: which other poses would look the same.
+  Symmetry symmetry;
+  /// Pixels that its region holds, 0 where the detected pose touches none.
   std::size_t pixel_count = 0;
+};
+
+/// A detection that says nothing about any object of the belief.
+struct RefusedDetection {
+  std::string type;
+  /// The object of that type to which it is nearest; empty where there is none.
+  std::string object_id;
+  PoseDistribution pose_world;
+  /// Squared Mahalanobis distance to that object's pose distribution, and the most that the gate
+  /// lets pass. Within the gate it was refused because another detection fits better.
+  double squared_distance = 0.0;
+  double max_squared_distance = 0.0;
 };
 
 /// A cluster of points that is neither floor, wall nor known object (thesis 3.3).
@@ -76,7 +96,11 @@ struct Segmentation {
   Grid<std::uint8_t> surfaces;
   std::optional<FloorObservation> floor;
   std::vector<WallObservation> walls;
+  /// In the belief's order.
   std::vector<ObjectObservation> objects;
+  std::vector<RefusedDetection> refused;
+  /// Whether a detector was asked: if not, that an object was not found says nothing.
+  bool objects_looked_for = false;
   std::vector<StuffCluster> stuff;
 };
 using SegmentationPtr = std::shared_ptr<Segmentation const>;

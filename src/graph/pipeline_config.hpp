@@ -3,12 +3,15 @@
 #include <cstdint>
 
 #include "core/capture_config.hpp"
+#include "core/detector_config.hpp"
 #include "core/fields.hpp"
 #include "graph/bounded_queue.hpp"
 #include "stages/clustering/clustering.hpp"
+#include "stages/detection/detection.hpp"
 #include "stages/fusion/fusion.hpp"
 #include "stages/normals/normals.hpp"
 #include "stages/planes/planes.hpp"
+#include "stages/region_growing/region_growing.hpp"
 
 namespace credo {
 
@@ -58,6 +61,9 @@ struct PipelineConfig {
   CaptureConfig capture;
   PoseConfig pose;
   NormalsConfig normals;
+  DetectorConfig detector;
+  DetectionConfig detection;
+  RegionGrowingConfig region_growing;
   PlanesConfig planes;
   ClusteringConfig clustering;
   FusionConfig fusion;

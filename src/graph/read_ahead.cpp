@@ -12,6 +12,23 @@ SourceResult const& ReadAhead::peek() {
   return ahead_.emplace_back(read());
 }
 
+FramePtr ReadAhead::first_frame() {
+  for (SourceResult const& result : ahead_) {
+    if (auto const* frame = std::get_if<FramePtr>(&result)) {
+      return *frame;
+    }
+  }
+  while (true) {
+    SourceResult const& result = peek();
+    if (auto const* frame = std::get_if<FramePtr>(&result)) {
+      return *frame;
+    }
+    if (std::holds_alternative<EndOfSource>(result)) {
+      return nullptr;
+    }
+  }
+}
+
 SourceResult ReadAhead::next() {
   if (ahead_.empty()) {
     return read();

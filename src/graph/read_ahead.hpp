@@ -20,6 +20,8 @@ public:
 
   /// Reads one more frame; `next` gives it again in its turn. Points until the next call of either.
   SourceResult const& peek();
+  /// The first good frame that `next` will give, read ahead if need be; none where there is none.
+  FramePtr first_frame();
   SourceResult next() override;
 
 private:

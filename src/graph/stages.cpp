@@ -5,6 +5,8 @@
 namespace credo {
 namespace {
 
+using KnownObjectsPtr = std::shared_ptr<KnownObjects const>;
+
 Segmentation begin_segmentation(Frame const& frame, WorldLevel const& level,
                                 BeliefState const& seen) {
   Segmentation segmentation =
@@ -13,14 +15,33 @@ Segmentation begin_segmentation(Frame const& frame, WorldLevel const& level,
   return segmentation;
 }
 
-void make_independent(Stages& stages, PipelineConfig const& config, BeliefPtr const& prior) {
-  stages.detection = [config, prior](Frame const& frame, NormalMap const&, BeliefState const&) {
+/// Method section 1, steps 2 and 3.
+Segmentation find_objects(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
+                          BeliefState const& seen, KnownObjects const& known,
+                          PipelineConfig const& config) {
+  if (known.detector == nullptr || seen.objects.empty()) {
+    return segmentation;
+  }
+  std::vector<Detection> const detections =
+      known.detector->detect(frame, detection_requests(seen, segmentation.T_world_camera));
+  segmentation =
+      match_detections(std::move(segmentation), seen, detections, known.models, config.detection);
+  return grow_objects(frame, normals, std::move(segmentation), known.shapes, config.region_growing);
+}
+
+void make_independent(Stages& stages, PipelineConfig const& config, Prior const& prior,
+                      KnownObjectsPtr const& known) {
+  stages.detection = [config, prior, known](Frame const& frame, NormalMap const& normals,
+                                            BeliefState const&) {
     // The level finder takes shared frames; this one outlives the call.
     FramePtr const borrowed(FramePtr{}, &frame);
-    return begin_segmentation(frame, find_level({&borrowed, 1}, config.pose), *prior);
+    WorldLevel const level = find_level({&borrowed, 1}, config.pose);
+    BeliefState const seen = prior_belief(prior, level.T_world_source * frame.T_source_camera);
+    return find_objects(frame, normals, begin_segmentation(frame, level, seen), seen, *known,
+                        config);
   };
   stages.fusion = [config, prior](BeliefState const& latest, Segmentation const& segmentation) {
-    BeliefState fresh = *prior;
+    BeliefState fresh = prior_belief(prior, segmentation.T_world_camera);
     fresh.next_wall_id = latest.next_wall_id;
     fresh.next_stuff_id = latest.next_stuff_id;
     return fuse(std::move(fresh), segmentation, config.fusion);
@@ -29,13 +50,16 @@ void make_independent(Stages& stages, PipelineConfig const& config, BeliefPtr co
 
 }  // namespace
 
-Stages make_stages(PipelineConfig const& config, WorldLevel const& level, BeliefPtr const& prior) {
+Stages make_stages(PipelineConfig const& config, WorldLevel const& level, Prior const& prior,
+                   KnownObjectsPtr const& known) {
   Stages stages;
   stages.normals = [config](Frame const& frame) {
     return estimate_normals(frame.cloud_camera, frame.intrinsics, config.normals);
   };
-  stages.detection = [level](Frame const& frame, NormalMap const&, BeliefState const& seen) {
-    return begin_segmentation(frame, level, seen);
+  stages.detection = [config, level, known](Frame const& frame, NormalMap const& normals,
+                                            BeliefState const& seen) {
+    return find_objects(frame, normals, begin_segmentation(frame, level, seen), seen, *known,
+                        config);
   };
   stages.planes = [config](Frame const& frame, NormalMap const& normals, Segmentation so_far) {
     return extract_planes(frame, normals, std::move(so_far), config.planes);
@@ -47,7 +71,7 @@ Stages make_stages(PipelineConfig const& config, WorldLevel const& level, Belief
     return fuse(std::move(belief), segmentation, config.fusion);
   };
   if (config.capture.independent_frames) {
-    make_independent(stages, config, prior);
+    make_independent(stages, config, prior, known);
   }
   return stages;
 }

@@ -1,11 +1,16 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "core/belief.hpp"
 #include "core/cloud.hpp"
+#include "core/detection.hpp"
 #include "core/frame.hpp"
+#include "core/object_model.hpp"
+#include "core/prior_file.hpp"
 #include "core/segmentation.hpp"
+#include "geometry/object_shape.hpp"
 #include "graph/pipeline_config.hpp"
 #include "stages/capture/level.hpp"
 
@@ -24,9 +29,22 @@ struct Stages {
   std::function<BeliefState(BeliefState, Segmentation const&)> fusion;
 };
 
-/// The real stages. With capture.independent_frames every frame is segmented with the prior, fused
-/// into it and levelled by itself; `level` is then unused, and ids still are never used twice.
-Stages make_stages(PipelineConfig const& config, WorldLevel const& level, BeliefPtr const& prior);
+/// What a run knows of objects beside the belief; shared by its stages, asked by several threads.
+struct KnownObjects {
+  ObjectModels models;
+  ObjectShapes shapes;
+  /// None: nobody looks for objects.
+  std::unique_ptr<Detector> detector;
+};
+
+/// The real stages. `detection` asks the detector, lets the gate choose and takes the objects'
+/// points out.
+///
+/// With capture.independent_frames every frame is segmented with the prior, fused into it and
+/// levelled by itself; only then `prior` is used and `level` is not. Ids still are never used
+/// twice.
+Stages make_stages(PipelineConfig const& config, WorldLevel const& level, Prior const& prior,
+                   std::shared_ptr<KnownObjects const> const& known);
 
 /// The first half of the method, for one frame: everything up to the belief.
 Segmentation segment(Stages const& stages, Frame const& frame, BeliefState const& seen);

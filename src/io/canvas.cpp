@@ -36,12 +36,26 @@ std::optional<View::Projection> View::project(Eigen::Vector3d const& p_world) co
     return std::nullopt;
   }
   double const zoom = perspective ? scale / p.z() : scale;
-  double const x = 0.5 * panel.width + zoom * p.x();
-  double const y = 0.5 * panel.height + zoom * p.y();
+  double const x = 0.5 * panel.width + centre_px.x() + zoom * p.x();
+  double const y = 0.5 * panel.height + centre_px.y() + zoom * p.y();
   if (!(std::abs(x) < 1e6) || !(std::abs(y) < 1e6)) {
     return std::nullopt;
   }
   return Projection{static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)), p.z()};
+}
+
+bool View::faces(Eigen::Vector3d const& p_world, Eigen::Vector3d const& normal_world) const {
+  Eigen::Vector3d const normal = T_view_world.rotation() * normal_world;
+  return perspective ? normal.dot(T_view_world * p_world) < 0.0 : normal.z() < 0.0;
+}
+
+View camera_view(Se3 const& T_world_camera, CameraIntrinsics const& intrinsics, int width_px,
+                 Panel const& panel) {
+  double const shrink = static_cast<double>(panel.width) / width_px;
+  // Pixel centres are at whole numbers in the camera's image and at halves on a panel.
+  Eigen::Vector2d const centre(shrink * (intrinsics.cx_px + 0.5) - 0.5 * panel.width,
+                               shrink * (intrinsics.cy_px + 0.5) - 0.5 * panel.height);
+  return {panel, T_world_camera.inverse(), shrink * intrinsics.fx_px, true, centre};
 }
 
 View oblique_view(Se3 const& T_world_camera, Panel const& panel) {
@@ -52,7 +66,7 @@ View oblique_view(Se3 const& T_world_camera, Panel const& panel) {
       T_world_camera.translation() + 2.0 * ahead - Eigen::Vector3d(0, 0, 0.9);
   return {panel,
           view_from(looking_along((target - eye).normalized(), Eigen::Vector3d::UnitZ()), eye),
-          0.85 * panel.width, true};
+          0.85 * panel.width, true, Eigen::Vector2d::Zero()};
 }
 
 View map_view(Se3 const& T_world_camera, Panel const& panel) {
@@ -60,7 +74,7 @@ View map_view(Se3 const& T_world_camera, Panel const& panel) {
   Eigen::Vector3d eye = T_world_camera.translation() + 1.5 * heading(T_world_camera);
   eye.z() = kHeightM;
   return {panel, view_from(looking_along(-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY()), eye),
-          panel.height / 7.0, false};
+          panel.height / 7.0, false, Eigen::Vector2d::Zero()};
 }
 
 Splats::Splats(View const& view, Canvas& canvas)
@@ -84,13 +98,17 @@ void Splats::point(Eigen::Vector3d const& p_world, Rgb color, int radius_px) {
   }
 }
 
-void Splats::line(Eigen::Vector3d const& a_world, Eigen::Vector3d const& b_world, Rgb color) {
+void Splats::line(Eigen::Vector3d const& a_world, Eigen::Vector3d const& b_world, Rgb color,
+                  double share) {
   // Steps of about a pixel for what is near; lines are short and few.
   double const length_m = (b_world - a_world).norm();
-  int const steps = std::clamp(static_cast<int>(length_m * 120.0), 1, 4000);
+  int const steps = std::clamp(static_cast<int>(length_m * 240.0), 1, 4000);
+  constexpr int kDash = 10;
   for (int k = 0; k <= steps; ++k) {
-    double const share = static_cast<double>(k) / steps;
-    point(a_world + share * (b_world - a_world), color, 1);
+    if (k % kDash < share * kDash) {
+      double const along = static_cast<double>(k) / steps;
+      point(a_world + along * (b_world - a_world), color, 1);
+    }
   }
 }
 

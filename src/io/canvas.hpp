@@ -42,6 +42,8 @@ struct View {
   /// Focal length [px]; for a map pixels per metre.
   double scale = 1.0;
   bool perspective = true;
+  /// Where the optical axis meets the panel, from its middle [px].
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
 
   struct Projection {
     int x = 0;
@@ -50,8 +52,14 @@ struct View {
   };
   /// None behind the view or not finite.
   [[nodiscard]] std::optional<Projection> project(Eigen::Vector3d const& p_world) const;
+  /// Whether a face with this outward normal is turned towards the viewer.
+  [[nodiscard]] bool faces(Eigen::Vector3d const& p_world,
+                           Eigen::Vector3d const& normal_world) const;
 };
 
+/// What the camera itself sees, in a panel that holds its whole image of `width_px` pixels.
+View camera_view(Se3 const& T_world_camera, CameraIntrinsics const& intrinsics, int width_px,
+                 Panel const& panel);
 /// From behind and above the camera, looking where it looks.
 View oblique_view(Se3 const& T_world_camera, Panel const& panel);
 /// From straight above, world x to the right, y up, centred a little before the camera.
@@ -63,7 +71,9 @@ public:
   Splats(View const& view, Canvas& canvas);
   /// A square of 2 radius_px - 1 pixels.
   void point(Eigen::Vector3d const& p_world, Rgb color, int radius_px);
-  void line(Eigen::Vector3d const& a_world, Eigen::Vector3d const& b_world, Rgb color);
+  /// `share` of its points, evenly: less than 1 makes dots.
+  void line(Eigen::Vector3d const& a_world, Eigen::Vector3d const& b_world, Rgb color,
+            double share = 1.0);
 
 private:
   View view_;

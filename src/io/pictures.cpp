@@ -17,7 +17,7 @@ constexpr Rgb kCyan = {0, 190, 200};
 constexpr Rgb kRed = {225, 40, 40};
 constexpr Rgb kPink = {255, 130, 190};
 constexpr Rgb kWallLine = {255, 200, 230};
-constexpr Rgb kMagenta = {255, 0, 255};
+constexpr Rgb kRefused = {255, 140, 0};
 constexpr Rgb kCamera = {255, 255, 255};
 
 constexpr std::array<Rgb, 8> kStuff = {{{165, 80, 235},
@@ -28,6 +28,13 @@ constexpr std::array<Rgb, 8> kStuff = {{{165, 80, 235},
                                         {190, 240, 110},
                                         {200, 120, 160},
                                         {130, 220, 190}}};
+
+constexpr std::array<Rgb, 6> kObjects = {{{255, 0, 255},
+                                          {70, 110, 255},
+                                          {0, 220, 130},
+                                          {255, 90, 90},
+                                          {200, 160, 255},
+                                          {120, 200, 255}}};
 
 Rgb mixed(Rgb a, Rgb b, double share_of_b) {
   Rgb result{};
@@ -85,7 +92,8 @@ void draw_labels(Frame const& frame, LabelMap const& labels, BeliefState const& 
 /// Draws everything a belief holds into one view of the world.
 class BeliefPainter {
 public:
-  BeliefPainter(View const& view, Canvas& canvas) : splats_(view, canvas) {}
+  BeliefPainter(View const& view, Canvas& canvas, Outlines const& outlines)
+      : view_(view), splats_(view, canvas), outlines_(outlines) {}
 
   void metre_grid(Eigen::Vector3d const& centre) {
     double const cx = std::round(centre.x());
@@ -126,8 +134,28 @@ public:
     for (StuffBelief const& stuff : belief.stuff) {
       points(stuff.latest().points_world, stuff_color(stuff.id, probability_of(stuff.log_odds)), 1);
     }
-    for (ObjectBelief const& object : belief.objects) {
-      axes(object.pose_world.mean, 0.15, kMagenta);
+    for (std::size_t i = 0; i < belief.objects.size(); ++i) {
+      ObjectBelief const& object = belief.objects[i];
+      outline(object.type, object.pose_world.mean, object_color(i, probability_of(object.log_odds)),
+              1.0);
+    }
+  }
+
+  /// `share` of each line is drawn, as dots.
+  void outline(std::string const& type, Se3 const& pose, Rgb color, double share) {
+    auto const found = outlines_.find(type);
+    if (found == outlines_.end()) {
+      axes(pose, 0.15, color);
+      return;
+    }
+    for (OutlineEdge const& edge : found->second) {
+      Eigen::Vector3d const a = pose * edge.begin.cast<double>();
+      Eigen::Vector3d const b = pose * edge.end.cast<double>();
+      bool const left = view_.faces(a, pose.rotation() * edge.normal_left.cast<double>());
+      bool const right = view_.faces(a, pose.rotation() * edge.normal_right.cast<double>());
+      if (edge.sharp || left != right) {
+        splats_.line(a, b, color, share);
+      }
     }
   }
 
@@ -140,8 +168,24 @@ private:
     }
   }
 
+  View view_;
   Splats splats_;
+  Outlines const& outlines_;
 };
+
+/// Where objects are, over what the camera sees.
+void draw_outlines(Segmentation const& segmentation, BeliefState const& belief, View const& view,
+                   Outlines const& outlines, Canvas& canvas) {
+  BeliefPainter painter(view, canvas, outlines);
+  for (RefusedDetection const& refused : segmentation.refused) {
+    painter.outline(refused.type, refused.pose_world.mean, kRefused, 1.0);
+  }
+  for (std::size_t i = 0; i < belief.objects.size(); ++i) {
+    ObjectBelief const& object = belief.objects[i];
+    bool const seen = object.evidence == Evidence::kSeen;
+    painter.outline(object.type, object.pose_world.mean, object_color(i, 1.0), seen ? 1.0 : 0.4);
+  }
+}
 
 }  // namespace
 
@@ -156,10 +200,14 @@ Rgb label_color(LabelCode label) {
     return mixed(kPink, {255, 255, 255}, 0.12 * ((label - kFirstWall) % 4));
   }
   if (is_object(label)) {
-    return kMagenta;
+    return object_color(static_cast<std::size_t>(label - kFirstObject), 1.0);
   }
   return is_stuff(label) ? kStuff[static_cast<std::size_t>(label - kFirstStuff) % kStuff.size()]
                          : kCyan;
+}
+
+Rgb object_color(std::size_t object, double probability) {
+  return mixed(kBackground, kObjects[object % kObjects.size()], std::clamp(probability, 0.25, 1.0));
 }
 
 Rgb stuff_color(std::uint32_t id, double probability) {
@@ -167,7 +215,7 @@ Rgb stuff_color(std::uint32_t id, double probability) {
 }
 
 Grid<Rgb> draw_picture(Frame const& frame, Segmentation const& segmentation,
-                       BeliefState const& belief) {
+                       BeliefState const& belief, Outlines const& outlines) {
   int const width = frame.cloud_camera.width() / 2;
   int const height = frame.cloud_camera.height() / 2;
   Canvas canvas(2 * width + 4, 2 * height + 4, kBackground);
@@ -181,8 +229,11 @@ Grid<Rgb> draw_picture(Frame const& frame, Segmentation const& segmentation,
   draw_color(frame, top_left, canvas);
   draw_labels(frame, segmentation.labels, belief, top_right, canvas);
   Se3 const& camera = belief.T_world_camera;
+  draw_outlines(segmentation, belief,
+                camera_view(camera, frame.intrinsics, frame.cloud_camera.width(), top_left),
+                outlines, canvas);
   for (View const& view : {oblique_view(camera, bottom_left), map_view(camera, bottom_right)}) {
-    BeliefPainter painter(view, canvas);
+    BeliefPainter painter(view, canvas, outlines);
     painter.metre_grid(camera.translation());
     painter.cloud(frame, segmentation.labels, camera);
     painter.belief(belief);

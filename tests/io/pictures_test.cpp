@@ -93,7 +93,7 @@ TEST(Pictures, ColorAndSegmentationStandAboveTheBelief) {
   Segmentation segmentation = plain_segmentation(frame);
   segmentation.labels[Pixel{100, 40}] = kFloor;
   segmentation.labels[Pixel{0, 0}] = kNoDepth;
-  Grid<Rgb> const picture = draw_picture(frame, segmentation, plain_belief());
+  Grid<Rgb> const picture = draw_picture(frame, segmentation, plain_belief(), {});
   EXPECT_EQ(picture.width(), 324);
   EXPECT_EQ(picture.height(), 244);
   EXPECT_EQ((picture[Pixel{50, 20}]), (Rgb{200, 100, 50}));
@@ -107,7 +107,7 @@ TEST(Pictures, ColorAndSegmentationStandAboveTheBelief) {
 TEST(Pictures, WithoutColorTheDepthStandsForIt) {
   Frame frame = plain_frame(4, 4);
   frame.cloud_camera.set(0, {kNaN, kNaN, kNaN});
-  Grid<Rgb> const picture = draw_picture(frame, plain_segmentation(frame), plain_belief());
+  Grid<Rgb> const picture = draw_picture(frame, plain_segmentation(frame), plain_belief(), {});
   EXPECT_EQ((picture[Pixel{0, 0}]), (Rgb{0, 0, 0}));
   EXPECT_EQ((picture[Pixel{1, 1}]), (Rgb{171, 171, 171}));
 }
@@ -117,10 +117,10 @@ TEST(Pictures, StuffKeepsItsBeliefsColorInTheSegmentation) {
   Segmentation segmentation = plain_segmentation(frame);
   segmentation.labels = LabelMap(320, 240, kFirstStuff);
   BeliefState belief = plain_belief();
-  Grid<Rgb> const unknown = draw_picture(frame, segmentation, belief);
+  Grid<Rgb> const unknown = draw_picture(frame, segmentation, belief, {});
   belief.stuff = {stuff_of(9, 2.0, {{2, 0, 0.5}})};
   belief.stuff[0].label = kFirstStuff;
-  Grid<Rgb> const known = draw_picture(frame, segmentation, belief);
+  Grid<Rgb> const known = draw_picture(frame, segmentation, belief, {});
   EXPECT_EQ((unknown[Pixel{200, 50}]), (Rgb{167, 103, 219})) << "purple, the label's";
   EXPECT_EQ((known[Pixel{200, 50}]), (Rgb{227, 208, 73})) << "yellow, that of id 9";
 }
@@ -135,7 +135,7 @@ TEST(Pictures, ThePointsOfABeliefStandWhereTheViewsProjectThem) {
   belief.floor.emplace();
   belief.floor->points = std::make_shared<PointList>(PointList{on_floor});
   belief.stuff = {stuff_of(8, 40.0, {thing})};
-  Grid<Rgb> const picture = draw_picture(frame, segmentation, belief);
+  Grid<Rgb> const picture = draw_picture(frame, segmentation, belief, {});
   View const views[] = {oblique_view(level_camera(), kOblique), map_view(level_camera(), kMap)};
   for (View const& view : views) {
     auto const floor_at = view.project(on_floor.cast<double>());
@@ -156,7 +156,7 @@ TEST(Pictures, WallsAreDrawnWithTheirSegments) {
   wall.segment_end_m = {2.5, 0.9};
   wall.points = std::make_shared<PointList>(PointList{{2.5F, 0.3F, 0.4F}});
   belief.walls = {wall};
-  Grid<Rgb> const picture = draw_picture(frame, segmentation, belief);
+  Grid<Rgb> const picture = draw_picture(frame, segmentation, belief, {});
   View const oblique = oblique_view(level_camera(), kOblique);
   EXPECT_EQ(pixel_in(picture, kOblique, oblique.project({2.5, 0.3, 0.4}).value()),
             (Rgb{255, 130, 190}));
@@ -169,13 +169,14 @@ TEST(Pictures, WallsAreDrawnWithTheirSegments) {
 TEST(Pictures, LatestCloudIsCyanAndKnownObjectsAreMarked) {
   Frame const frame = plain_frame(320, 240);
   BeliefState belief = plain_belief();
-  Grid<Rgb> const before = draw_picture(frame, plain_segmentation(frame), belief);
+  Grid<Rgb> const before = draw_picture(frame, plain_segmentation(frame), belief, {});
   EXPECT_TRUE(shows(before, kOblique, {0, 190, 200}));
   EXPECT_TRUE(shows(before, kMap, {0, 190, 200}));
   EXPECT_FALSE(shows(before, kMap, {255, 0, 255}));
   belief.objects.resize(1);
+  belief.objects[0].log_odds = 40;
   belief.objects[0].pose_world.mean = Se3(Eigen::Quaterniond::Identity(), {1.5, 0.5, 0.8});
-  Grid<Rgb> const after = draw_picture(frame, plain_segmentation(frame), belief);
+  Grid<Rgb> const after = draw_picture(frame, plain_segmentation(frame), belief, {});
   EXPECT_TRUE(shows(after, kOblique, {255, 0, 255}));
   EXPECT_TRUE(shows(after, kMap, {255, 0, 255}));
 }
@@ -193,14 +194,14 @@ TEST(Pictures, StuffPalesWithItsProbability) {
 TEST(Pictures, TinyFramesAndNaNsDoNoHarm) {
   for (int const side : {0, 1}) {
     Frame const frame = plain_frame(side, side);
-    EXPECT_TRUE(draw_picture(frame, plain_segmentation(frame), plain_belief()).empty());
+    EXPECT_TRUE(draw_picture(frame, plain_segmentation(frame), plain_belief(), {}).empty());
   }
   Frame frame = plain_frame(320, 240);
   frame.cloud_camera = OrganizedCloud(320, 240);
   BeliefState belief = belief_of_a_kitchen();
   belief.floor->points = std::make_shared<PointList>(PointList{{kNaN, kNaN, kNaN}});
   belief.walls[0].segment_end_m = {1e9, std::nan("")};
-  EXPECT_FALSE(draw_picture(frame, plain_segmentation(frame), belief).empty());
+  EXPECT_FALSE(draw_picture(frame, plain_segmentation(frame), belief, {}).empty());
 }
 
 TEST(Views, LookWhereTheCameraLooks) {

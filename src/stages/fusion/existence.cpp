@@ -5,16 +5,20 @@
 
 namespace credo {
 
+ViewChange view_change(Look const& before, Look const& now) {
+  constexpr double kSecondsPerNanosecond = 1e-9;
+  return {.elapsed_s = std::max(
+              0.0, static_cast<double>(now.stamp_ns - before.stamp_ns) * kSecondsPerNanosecond),
+          .camera_before_world = before.camera_world,
+          .camera_now_world = now.camera_world};
+}
+
 ViewChange view_change(BeliefState const& belief, Segmentation const& segmentation) {
-  ViewChange change;
-  change.camera_now_world = segmentation.T_world_camera.translation();
-  if (belief.frame != kPriorFrame) {
-    constexpr double kSecondsPerNanosecond = 1e-9;
-    change.camera_before_world = belief.T_world_camera.translation();
-    change.elapsed_s = std::max(
-        0.0, static_cast<double>(segmentation.stamp_ns - belief.stamp_ns) * kSecondsPerNanosecond);
+  Look const now{segmentation.stamp_ns, segmentation.T_world_camera.translation()};
+  if (belief.frame == kPriorFrame) {
+    return {0.0, std::nullopt, now.camera_world};
   }
-  return change;
+  return view_change({belief.stamp_ns, belief.T_world_camera.translation()}, now);
 }
 
 double novelty(ViewChange const& change, Eigen::Vector3d const& point_world,

@@ -19,7 +19,10 @@ struct ViewChange {
 /// time.
 [[nodiscard]] ViewChange view_change(BeliefState const& belief, Segmentation const& segmentation);
 
-/// How much of a frame is news about a thing at `point_world`, in (0, 1]: 1 - exp(-(dt / T + dtheta
+/// From one look at a thing to the next.
+[[nodiscard]] ViewChange view_change(Look const& before, Look const& now);
+
+/// How much of a frame is news about a thing at `point_world`, in [0, 1]: 1 - exp(-(dt / T + dtheta
 /// / A)), with dt since the frame before, dtheta the angle by which the line of sight to the point
 /// turned, T and A the correlation time and angle. A thesis observation was a look from another
 /// place, full news; at 30 Hz a sensor that stands still sees the same pixels with the same faults,

@@ -1,38 +1,14 @@
 #include "stages/fusion/fusion.hpp"
 
-#include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "stages/fusion/existence.hpp"
 #include "stages/fusion/floor.hpp"
+#include "stages/fusion/objects.hpp"
 #include "stages/fusion/stuff.hpp"
 #include "stages/fusion/walls.hpp"
 
 namespace credo {
-namespace {
-
-/// Thesis algorithm 4, the mode probability.
-std::vector<ObjectBelief> fused_objects(std::vector<ObjectBelief> objects,
-                                        std::vector<ObjectObservation> const& seen,
-                                        ViewChange const& change, ExistenceConfig const& config) {
-  for (ObjectBelief& object : objects) {
-    auto const observation = std::find_if(seen.begin(), seen.end(), [&](auto const& candidate) {
-      return candidate.object_id == object.id;
-    });
-    Evidence const before = std::exchange(object.evidence, Evidence::kNotSeen);
-    object.label.reset();
-    if (observation != seen.end()) {
-      object.evidence = Evidence::kSeen;
-      object.label = observation->label;
-    }
-    double const news = novelty(change, object.pose_world.mean.translation(), config);
-    object.log_odds = updated_log_odds(object.log_odds, before, object.evidence, news, config);
-  }
-  return objects;
-}
-
-}  // namespace
 
 BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConfig const& config) {
   ViewChange const change = view_change(prior, segmentation);
@@ -41,8 +17,7 @@ BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConf
   belief.stamp_ns = segmentation.stamp_ns;
   belief.segmented_with = segmentation.segmented_with;
   belief.T_world_camera = segmentation.T_world_camera;
-  belief.objects =
-      fused_objects(std::move(belief.objects), segmentation.objects, change, config.existence);
+  belief.objects = fused_objects(std::move(belief.objects), segmentation, change, config.existence);
   belief.floor = fused_floor(std::move(belief.floor), segmentation.floor, config.floor);
   FusedWalls walls =
       fused_walls({std::move(belief.walls), belief.next_wall_id}, segmentation.walls, config.walls);

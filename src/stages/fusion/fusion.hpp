@@ -94,7 +94,7 @@ FieldList fields(FusionConfig& config);
 ///
 /// Total: an empty segmentation is a frame in which nothing was seen. Planes without a finite point
 /// and clusters without points are passed over. Objects are found again by id; one that the belief
-/// does not hold is passed over. An object's pose distribution stays as it is.
+/// does not hold is passed over.
 [[nodiscard]] BeliefState fuse(BeliefState prior, Segmentation const& segmentation,
                                FusionConfig const& config);
 

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/object_model.hpp"
+#include "geometry/mesh_distance.hpp"
+#include "geometry/solid_distance.hpp"
+
+namespace credo {
+
+/// The shape of a model, made ready to be asked. Model frame throughout; any number of threads.
+class ObjectShape {
+public:
+  /// Throws std::logic_error for an empty shape.
+  explicit ObjectShape(ObjectModel const& model);
+
+  /// Whether it has an inside: solids always, a mesh where it is closed.
+  [[nodiscard]] bool closed() const { return closed_; }
+  [[nodiscard]] Eigen::AlignedBox3d const& bounds() const { return bounds_; }
+  /// Of solids, the least of their distances: exact outside and on the surface of their union, and
+  /// negative inside it.
+  [[nodiscard]] SurfaceDistance distance_to(Eigen::Vector3d const& point_model) const;
+
+private:
+  std::variant<std::vector<Solid>, MeshDistance> shape_;
+  Eigen::AlignedBox3d bounds_;
+  bool closed_ = true;
+};
+
+/// By the name of their model.
+using ObjectShapes = std::map<std::string, ObjectShape>;
+
+[[nodiscard]] ObjectShapes shapes_of(ObjectModels const& models);
+
+}  // namespace credo

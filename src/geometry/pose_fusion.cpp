@@ -1,0 +1,160 @@
+#include "geometry/pose_fusion.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace credo {
+namespace {
+
+Eigen::Matrix3d cross_matrix(Eigen::Vector3d const& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+/// What does not move when the model turns in its symmetry.
+Eigen::Vector3d centre_of(Symmetry const& symmetry) {
+  return symmetry.axis ? symmetry.axis->point_m : Eigen::Vector3d(0, 0, 0);
+}
+
+/// Turning about the symmetry axis, in the coordinates of model_errors.
+Vector6d unseen_direction(SymmetryAxis const& axis) {
+  Vector6d direction = Vector6d::Zero();
+  direction.tail<3>() = axis.direction;
+  return direction;
+}
+
+/// Takes errors (delta, phi) along the frame's axes about `pose` (se3.hpp) to errors (shift of the
+/// centre along the frame's axes, turn about the model's axes).
+Matrix6d model_errors(Se3 const& pose, Eigen::Vector3d const& centre) {
+  Eigen::Matrix3d const R = pose.rotation().toRotationMatrix();
+  Matrix6d map = Matrix6d::Identity();
+  map.topRightCorner<3, 3>() = -cross_matrix(R * centre);
+  map.bottomRightCorner<3, 3>() = R.transpose();
+  return map;
+}
+
+Matrix6d frame_errors(Se3 const& pose, Eigen::Vector3d const& centre) {
+  Eigen::Matrix3d const R = pose.rotation().toRotationMatrix();
+  Matrix6d map = Matrix6d::Identity();
+  map.topRightCorner<3, 3>() = cross_matrix(R * centre) * R;
+  map.bottomRightCorner<3, 3>() = R;
+  return map;
+}
+
+Matrix6d symmetric(Matrix6d const& m) {
+  return 0.5 * (m + m.transpose());
+}
+
+Matrix6d inverse_of(Matrix6d const& covariance) {
+  Eigen::LLT<Matrix6d> const factor(symmetric(covariance));
+  if (factor.info() != Eigen::Success) {
+    throw std::logic_error("pose fusion: a covariance is not positive definite");
+  }
+  return symmetric(factor.solve(Matrix6d::Identity()));
+}
+
+/// The part of the information that knows nothing about one direction: what is left when that
+/// direction's variance grows without bound.
+Matrix6d without(Matrix6d const& information, Vector6d const& direction) {
+  Vector6d const toward = information * direction;
+  return symmetric(information - toward * toward.transpose() / direction.dot(toward));
+}
+
+/// The turn of the detected pose about its own axis after which only a swing is left to the
+/// expected one.
+Se3 turned_back(Se3 const& expected, Se3 const& detected, SymmetryAxis const& axis) {
+  Eigen::Quaterniond const apart = expected.rotation().conjugate() * detected.rotation();
+  double const turn_rad = 2.0 * std::atan2(apart.vec().dot(axis.direction), apart.w());
+  Eigen::Quaterniond const back = so3_exp(-turn_rad * axis.direction);
+  return detected * Se3(back, axis.point_m - back * axis.point_m);
+}
+
+/// Both poses in the coordinates that the update works in.
+struct Comparison {
+  Se3 equivalent;
+  Vector6d difference;
+  Matrix6d expected_covariance;
+  Matrix6d detected_covariance;
+};
+
+/// `equivalent` looks like the detected pose.
+Comparison compared(PoseDistribution const& expected, PoseDistribution const& detected,
+                    Se3 const& equivalent, Eigen::Vector3d const& centre) {
+  Comparison result;
+  result.equivalent = equivalent;
+  result.difference << equivalent * centre - expected.mean * centre,
+      so3_log(expected.mean.rotation().conjugate() * equivalent.rotation());
+  Matrix6d const to_model = model_errors(expected.mean, centre);
+  result.expected_covariance = symmetric(to_model * expected.covariance * to_model.transpose());
+  // The covariance tells of the detected pose; its errors move the equivalent with it.
+  Matrix6d moved = Matrix6d::Identity();
+  moved.topRightCorner<3, 3>() =
+      -cross_matrix(equivalent.translation() - detected.mean.translation());
+  Matrix6d const from_detected = model_errors(equivalent, centre) * moved;
+  result.detected_covariance =
+      symmetric(from_detected * detected.covariance * from_detected.transpose());
+  return result;
+}
+
+double squared_distance(Comparison const& comparison, Symmetry const& symmetry) {
+  Matrix6d information =
+      inverse_of(comparison.expected_covariance + comparison.detected_covariance);
+  if (symmetry.axis) {
+    information = without(information, unseen_direction(*symmetry.axis));
+  }
+  return comparison.difference.dot(information * comparison.difference);
+}
+
+std::pair<Comparison, double> nearest(PoseDistribution const& expected,
+                                      PoseDistribution const& detected, Symmetry const& symmetry) {
+  Eigen::Vector3d const centre = centre_of(symmetry);
+  Se3 const first =
+      symmetry.axis ? turned_back(expected.mean, detected.mean, *symmetry.axis) : detected.mean;
+  Comparison best = compared(expected, detected, first, centre);
+  double least = squared_distance(best, symmetry);
+  for (Eigen::Quaterniond const& rotation : symmetry.rotations) {
+    Comparison const other = compared(
+        expected, detected, detected.mean * Se3(rotation, Eigen::Vector3d::Zero()), centre);
+    double const distance = squared_distance(other, symmetry);
+    if (distance < least) {
+      least = distance;
+      best = other;
+    }
+  }
+  return {best, least};
+}
+
+}  // namespace
+
+PoseMatch match_pose(PoseDistribution const& expected, PoseDistribution const& detected,
+                     Symmetry const& symmetry) {
+  auto const [comparison, distance] = nearest(expected, detected, symmetry);
+  return {distance, symmetry.axis ? 5 : 6, comparison.equivalent};
+}
+
+PoseDistribution updated_pose(PoseDistribution const& expected, PoseDistribution const& detected,
+                              Symmetry const& symmetry, double weight) {
+  if (!(weight > 0.0 && weight <= 1.0)) {
+    throw std::logic_error("updated_pose: weight " + std::to_string(weight) + " must be in (0, 1]");
+  }
+  Eigen::Vector3d const centre = centre_of(symmetry);
+  Comparison const comparison = nearest(expected, detected, symmetry).first;
+  Matrix6d news = inverse_of(comparison.detected_covariance);
+  if (symmetry.axis) {
+    news = without(news, unseen_direction(*symmetry.axis));
+  }
+  news *= weight;
+  Matrix6d const covariance = inverse_of(inverse_of(comparison.expected_covariance) + news);
+  Vector6d const correction = covariance * (news * comparison.difference);
+  Eigen::Quaterniond const rotation = expected.mean.rotation() * so3_exp(correction.tail<3>());
+  Eigen::Vector3d const centre_now = expected.mean * centre + correction.head<3>();
+  Se3 const mean(rotation, centre_now - rotation * centre);
+  Matrix6d const to_frame = frame_errors(mean, centre);
+  return {mean, symmetric(to_frame * covariance * to_frame.transpose())};
+}
+
+}  // namespace credo

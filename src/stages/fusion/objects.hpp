@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "core/belief.hpp"
+#include "core/segmentation.hpp"
+#include "stages/fusion/existence.hpp"
+#include "stages/fusion/fusion.hpp"
+
+namespace credo {
+
+/// Known objects after one more frame (thesis 4.1, algorithm 4). One that was seen has its pose
+/// updated by the detected one and is the likelier to be there; one that was looked for in vain
+/// keeps its pose and is the less likely. Where nobody looked, neither moves. Observations of
+/// objects that are not there are passed over.
+///
+/// A detector repeats its errors from frame to frame as long as the picture stays the same. So of a
+/// detection the part that is news since the object was last seen (novelty, existence.hpp) counts,
+/// and the information of many frames from one place does not add up to certainty.
+[[nodiscard]] std::vector<ObjectBelief> fused_objects(std::vector<ObjectBelief> objects,
+                                                      Segmentation const& segmentation,
+                                                      ViewChange const& change,
+                                                      ExistenceConfig const& config);
+
+}  // namespace credo

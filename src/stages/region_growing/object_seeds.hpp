@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/cloud.hpp"
+#include "core/se3.hpp"
+#include "geometry/object_shape.hpp"
+#include "stages/region_growing/region_growing.hpp"
+
+namespace credo {
+
+/// A model at the pose at which it was detected.
+struct PlacedShape {
+  ObjectShape const* shape = nullptr;
+  Se3 T_model_camera;
+};
+
+/// The pixels whose points lie within the model's bounding box, `margin_m` larger on each side, in
+/// raster order.
+[[nodiscard]] std::vector<std::size_t> pixels_in_bounds(OrganizedCloud const& cloud,
+                                                        PlacedShape const& placed, double margin_m);
+
+/// Those of `pixels` (with finite points) that seed the object's region, in the same order.
+[[nodiscard]] std::vector<std::size_t> seeds_among(std::vector<std::size_t> const& pixels,
+                                                   OrganizedCloud const& cloud,
+                                                   NormalMap const& normals,
+                                                   PlacedShape const& placed,
+                                                   RegionGrowingConfig const& config);
+
+}  // namespace credo

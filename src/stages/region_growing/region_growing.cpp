@@ -1,0 +1,187 @@
+#include "stages/region_growing/region_growing.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/reachability.hpp"
+#include "stages/region_growing/object_seeds.hpp"
+
+namespace credo {
+namespace {
+
+/// An object on its way to its pixels.
+struct Region {
+  std::size_t observation = 0;
+  PlacedShape placed;
+  /// Where it may grow.
+  std::vector<std::size_t> bounded;
+};
+
+void check(Frame const& frame, NormalMap const& normals, Segmentation const& segmentation) {
+  Grid<float> const& depth = frame.cloud_camera.z;
+  if (!depth.same_size(normals.z) || !depth.same_size(segmentation.labels)) {
+    throw std::logic_error("grow_objects: a cloud of " + std::to_string(depth.width()) + "x" +
+                           std::to_string(depth.height()) +
+                           " pixels needs normals and labels of that size");
+  }
+}
+
+std::vector<Region> regions_of(OrganizedCloud const& cloud, Segmentation const& segmentation,
+                               ObjectShapes const& shapes, RegionGrowingConfig const& config) {
+  std::vector<Region> regions;
+  for (std::size_t i = 0; i < segmentation.objects.size(); ++i) {
+    ObjectObservation const& object = segmentation.objects[i];
+    auto const shape = shapes.find(object.type);
+    if (shape == shapes.end()) {
+      continue;
+    }
+    PlacedShape const placed{&shape->second,
+                             object.pose_world.mean.inverse() * segmentation.T_world_camera};
+    regions.push_back({i, placed, pixels_in_bounds(cloud, placed, config.bounds_margin_m)});
+  }
+  return regions;
+}
+
+/// The part of an image that holds some pixels.
+struct Window {
+  int left = 0;
+  int top = 0;
+  int width = 0;
+  int height = 0;
+};
+
+Window window_around(std::vector<std::size_t> const& pixels, int image_width) {
+  auto const width = static_cast<std::size_t>(image_width);
+  int left = image_width;
+  int right = 0;
+  for (std::size_t const i : pixels) {
+    left = std::min(left, static_cast<int>(i % width));
+    right = std::max(right, static_cast<int>(i % width));
+  }
+  int const top = static_cast<int>(pixels.front() / width);
+  int const bottom = static_cast<int>(pixels.back() / width);
+  return {left, top, right - left + 1, bottom - top + 1};
+}
+
+template <typename T>
+Grid<T> cut_out(Grid<T> const& grid, Window const& window) {
+  Grid<T> part(window.width, window.height);
+  for (int v = 0; v < window.height; ++v) {
+    std::copy_n(grid.row(window.top + v).begin() + window.left, window.width, part.row(v).begin());
+  }
+  return part;
+}
+
+template <typename Vectors>
+Vectors cut_out_vectors(Vectors const& grid, Window const& window) {
+  Vectors part;
+  part.x = cut_out(grid.x, window);
+  part.y = cut_out(grid.y, window);
+  part.z = cut_out(grid.z, window);
+  return part;
+}
+
+/// Algorithm 1: the components, among pixels of the region's bounds that are free or its own, that
+/// hold one of its own.
+void grow(Region const& region, LabelCode own, OrganizedCloud const& cloud,
+          NormalMap const& normals, RegionGrowingConfig const& config, LabelMap& labels) {
+  if (region.bounded.empty()) {
+    return;
+  }
+  Window const window = window_around(region.bounded, cloud.width());
+  Grid<std::uint8_t> active(window.width, window.height);
+  auto const width = static_cast<std::size_t>(cloud.width());
+  for (std::size_t const i : region.bounded) {
+    if (labels[i] == kUnassigned || labels[i] == own) {
+      active[Pixel{static_cast<int>(i % width) - window.left,
+                   static_cast<int>(i / width) - window.top}] = 1;
+    }
+  }
+  std::vector<ComponentRun> const runs =
+      component_runs(cut_out_vectors(cloud, window), cut_out_vectors(normals, window), active,
+                     {.radius_m = static_cast<float>(config.radius_m),
+                      .max_angle_rad = static_cast<float>(config.max_angle_rad)});
+  std::vector<bool> holds_seed(runs.size(), false);
+  auto const pixels_of = [&](ComponentRun const& run) {
+    return labels.row(window.top + run.v)
+        .subspan(static_cast<std::size_t>(window.left + run.begin),
+                 static_cast<std::size_t>(run.end - run.begin));
+  };
+  for (ComponentRun const& run : runs) {
+    if (std::ranges::find(pixels_of(run), own) != pixels_of(run).end()) {
+      holds_seed[static_cast<std::size_t>(run.component)] = true;
+    }
+  }
+  for (ComponentRun const& run : runs) {
+    if (holds_seed[static_cast<std::size_t>(run.component)]) {
+      std::ranges::fill(pixels_of(run), own);
+    }
+  }
+}
+
+}  // namespace
+
+FieldList fields(RegionGrowingConfig& config) {
+  return {
+      {"radius_m",
+       &config.radius_m,
+       {0.001, 1},
+       "m",
+       "a region takes in points within this distance of its own"},
+      {"max_angle_rad",
+       &config.max_angle_rad,
+       {0, 3.14},
+       "rad",
+       "... if their normals differ by less than this"},
+      {"bounds_margin_m",
+       &config.bounds_margin_m,
+       {0, 1},
+       "m",
+       "how far beyond its model's bounding box a region may grow, on each side"},
+      {"seed_distance_m",
+       &config.seed_distance_m,
+       {0, 1},
+       "m",
+       "points as near outside a model seed its region like those inside"},
+      {"open_mesh_distance_m",
+       &config.open_mesh_distance_m,
+       {0, 1},
+       "m",
+       "the same for a mesh with holes, which has no inside"},
+      {"seed_max_angle_rad",
+       &config.seed_max_angle_rad,
+       {0, 3.15},
+       "rad",
+       "a seed's normal is within this angle of the model's; 3.15 = any, or none"},
+  };
+}
+
+Segmentation grow_objects(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
+                          ObjectShapes const& shapes, RegionGrowingConfig const& config) {
+  check(frame, normals, segmentation);
+  OrganizedCloud const& cloud = frame.cloud_camera;
+  LabelMap& labels = segmentation.labels;
+  std::vector<Region> const regions = regions_of(cloud, segmentation, shapes, config);
+  for (Region const& region : regions) {
+    LabelCode const own = segmentation.objects[region.observation].label;
+    for (std::size_t const i : seeds_among(region.bounded, cloud, normals, region.placed, config)) {
+      if (labels[i] == kUnassigned) {
+        labels[i] = own;
+      }
+    }
+  }
+  for (Region const& region : regions) {
+    ObjectObservation& object = segmentation.objects[region.observation];
+    grow(region, object.label, cloud, normals, config, labels);
+    object.pixel_count = static_cast<std::size_t>(std::ranges::count_if(
+        region.bounded, [&](std::size_t i) { return labels[i] == object.label; }));
+  }
+  return segmentation;
+}
+
+}  // namespace credo

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "core/cloud.hpp"
+#include "core/fields.hpp"
+#include "core/frame.hpp"
+#include "core/segmentation.hpp"
+#include "geometry/object_shape.hpp"
+
+namespace credo {
+
+/// The points of known objects (thesis 3.1.2 and algorithm 1); the thesis' numbers are marked T.
+struct RegionGrowingConfig {
+  /// A point within this distance of a point of the region (T: 0.03) ...
+  double radius_m = 0.03;
+  /// ... whose normals differ by less than this joins it (T: 0.3).
+  double max_angle_rad = 0.3;
+  /// The region stays within the model's bounding box, so much larger on each side ("loosely").
+  double bounds_margin_m = 0.03;
+  /// Points within this distance outside the model seed its region like those inside (T: 0): a pose
+  /// that is off by a little must not lose a whole face.
+  double seed_distance_m = 0.01;
+  /// The same for a mesh with holes, which has no inside.
+  double open_mesh_distance_m = 0.015;
+  /// Seeds have a normal within this angle of that of the model's nearest surface, so that a table
+  /// is not taken for the box on it; pi or more switches it off (T).
+  double seed_max_angle_rad = 0.6;
+};
+FieldList fields(RegionGrowingConfig& config);
+
+/// Labels the pixels of each observed object: kFirstObject + its position in the belief. `shapes`
+/// has the models by name; an observation whose type is not there is left without pixels.
+///
+/// The seeds of all objects are claimed before anything grows, objects in the order of the
+/// observations; then each grows over pixels that nothing has claimed, as algorithm 1 says, never
+/// out of its bounds. Only pixels that come kUnassigned are taken. What is reached is exactly what
+/// the algorithm reaches, pixel for pixel: the components of the graph of reachability.hpp that
+/// hold a seed. Pixels without a normal are seeds at most, where seed_max_angle_rad is off, and
+/// nothing grows from them.
+///
+/// Throws std::logic_error where the sizes of cloud, normals and labels differ.
+[[nodiscard]] Segmentation grow_objects(Frame const& frame, NormalMap const& normals,
+                                        Segmentation segmentation, ObjectShapes const& shapes,
+                                        RegionGrowingConfig const& config);
+
+}  // namespace credo

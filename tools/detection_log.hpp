@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "core/segmentation.hpp"
+
+namespace credo {
+
+/// Tells of detections that the belief did not take: each object's first few in the log, all in the
+/// summary. Called by one thread at a time.
+class DetectionLog {
+public:
+  /// Lines to log for a frame; mostly none.
+  std::vector<std::string> told(Segmentation const& segmentation);
+  /// "objects: 118 detections taken, 3 refused (2 table_1, 1 of no object)", empty where nobody
+  /// looked.
+  [[nodiscard]] std::string summary() const;
+
+private:
+  bool looked_ = false;
+  std::uint64_t taken_ = 0;
+  /// By object; the empty name for those of no object.
+  std::map<std::string, std::uint64_t> refused_;
+};
+
+}  // namespace credo

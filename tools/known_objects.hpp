@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/detector_config.hpp"
+#include "core/object_model.hpp"
+#include "core/prior_file.hpp"
+
+namespace credo {
+
+/// What `--prior` names, with the models that it names.
+struct LoadedPrior {
+  Prior prior;
+  ObjectModels models;
+  /// Each one line for people.
+  std::vector<std::string> warnings;
+};
+
+/// Reads a prior and its models. A model is a file, told by its path from the prior's folder, or a
+/// name: NAME.yaml beside the prior, in a folder models/ there, or in models/ of this project.
+/// Throws InputError with one line for the first fault, or for all of one file's.
+LoadedPrior load_prior(std::filesystem::path const& path, double probability);
+
+/// The detector that the config asks for; null for `none`. Throws InputError where it cannot be
+/// had: a file that is not right, or `sim` for a source that is no scene.
+std::unique_ptr<Detector> open_detector(DetectorConfig const& config,
+                                        std::string const& source_uri);
+
+}  // namespace credo
