@@ -1,11 +1,8 @@
 #include "io/ply_check.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -160,8 +157,7 @@ private:
 
 class BinaryRows {
 public:
-  BinaryRows(std::istream& file, bool big_endian)
-      : data_(std::istreambuf_iterator<char>(file), {}), rest_(data_), big_endian_(big_endian) {}
+  BinaryRows(std::string_view data, bool big_endian) : rest_(data), big_endian_(big_endian) {}
 
   /// Whether the next row holds these properties.
   bool next(std::vector<Property> const& properties) {
@@ -189,16 +185,18 @@ private:
     if (!skip(1, type.bytes)) {
       return std::nullopt;
     }
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < type.bytes; ++i) {
-      std::size_t const from_high = big_endian_ ? i : type.bytes - 1 - i;
-      value = value << 8U | static_cast<std::uint8_t>(bytes[from_high]);
+    std::string high_first(bytes);
+    if (!big_endian_) {
+      std::reverse(high_first.begin(), high_first.end());
     }
-    bool const negative = type.kind == Kind::kSigned && value >> (8 * type.bytes - 1) != 0;
+    std::uint64_t value = 0;
+    for (char const byte : high_first) {
+      value = value << 8U | static_cast<std::uint8_t>(byte);
+    }
+    bool const negative = type.kind == Kind::kSigned && (high_first[0] & 0x80) != 0;
     return negative ? std::nullopt : std::optional(value);
   }
 
-  std::string data_;
   std::string_view rest_;
   bool big_endian_;
 };
@@ -240,7 +238,8 @@ void check_ply(std::filesystem::path const& path) {
     if (header.format == Format::kAscii) {
       check_rows(TextRows(file), header.elements);
     } else {
-      check_rows(BinaryRows(file, header.format == Format::kBinaryBig), header.elements);
+      std::string const data(std::istreambuf_iterator<char>(file), {});
+      check_rows(BinaryRows(data, header.format == Format::kBinaryBig), header.elements);
     }
   } catch (std::exception const& error) {
     throw InputError(path.string() + ": " + error.what());

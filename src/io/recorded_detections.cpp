@@ -105,7 +105,7 @@ std::string type_of(Value const& value) {
 
 Eigen::Quaterniond orientation_of(Value const& value) {
   auto const xyzw = numbers_of<4>(value);
-  Eigen::Quaterniond const orientation(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+  Eigen::Quaterniond orientation(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
   double const length = orientation.norm();
   if (!(std::abs(length - 1.0) <= 1e-2)) {
     std::ostringstream text;
@@ -119,7 +119,7 @@ Matrix6d covariance_of(Value const& value) {
   auto const numbers = numbers_of<36>(value);
   Matrix6d const read =
       Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor> const>(numbers.data());
-  Matrix6d const covariance = 0.5 * (read + read.transpose());
+  Matrix6d covariance = 0.5 * (read + read.transpose());
   double const off = (read - covariance).cwiseAbs().maxCoeff();
   if (!(off <= 1e-6 * read.cwiseAbs().maxCoeff()) ||
       covariance.llt().info() != Eigen::ComputationInfo::Success) {
