@@ -8,6 +8,7 @@
 #include "config/yaml_config.hpp"
 #include "core/error.hpp"
 #include "core/model_file.hpp"
+#include "geometry/mesh_edges.hpp"
 #include "io/mesh_file.hpp"
 #include "io/recorded_detections.hpp"
 #include "sim/sim_detector.hpp"
@@ -67,11 +68,10 @@ ObjectModel load_model(fs::path const& path, std::vector<std::string>& warnings)
   if (!file.mesh.empty()) {
     fs::path const mesh_path = path.parent_path() / file.mesh;
     LoadedMesh loaded = read_mesh(mesh_path, file.unit);
-    if (loaded.boundary_edges > 0) {
+    if (!is_closed(edges_of(loaded.mesh))) {
       warnings.push_back(fmt::format(
-          "{}: mesh is open ({} edges without a triangle on either side) and so has no inside: "
-          "what "
-          "is near its surface (region_growing.open_mesh_distance_m) counts as the object's",
+          "{}: the mesh is open ({} edges without a triangle on either side) and so has no inside: "
+          "what is near its surface (region_growing.open_mesh_distance_m) counts as the object's",
           mesh_path.string(), loaded.boundary_edges));
     }
     mesh = std::move(loaded.mesh);

@@ -103,6 +103,7 @@ TEST(Dependencies, LibrariesStayInTheirRooms) {
       {"pcl/", {"io", "geometry", "stages"}, false},
       {"embree", {"sim"}, false},
       {"spdlog/", {"graph"}, true},
+      {"assimp/", {"io"}, false},
       {"spng.h", {"io"}, false},
       {"turbojpeg.h", {"io"}, false},
       {"nlohmann/", {"io"}, true},
