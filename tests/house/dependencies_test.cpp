@@ -101,7 +101,7 @@ TEST(Dependencies, LibrariesStayInTheirRooms) {
       {"oneapi/tbb/flow_graph.h", {"graph"}, true},
       {"yaml-cpp/", {"config"}, false},
       {"pcl/", {"io", "geometry", "stages"}, false},
-      {"embree", {"sim"}, false},
+      {"embree", {"geometry", "sim"}, false},
       {"spdlog/", {"graph"}, true},
       {"assimp/", {"io"}, false},
       {"spng.h", {"io"}, false},

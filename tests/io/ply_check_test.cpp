@@ -69,7 +69,7 @@ TEST_F(PlyCheckTest, WholeFilesPass) {
   for (bool const big_endian : {false, true}) {
     std::string const text = binary_ply(cube(1), big_endian);
     EXPECT_EQ(error_of(text), "no error");
-    LoadedMesh const loaded = read_mesh(folder_ / "thing.ply", MeshUnit::kMetre);
+    LoadedMesh const loaded = read_mesh(folder_ / "thing.ply", LengthUnit::kMetre);
     EXPECT_EQ(loaded.mesh.vertices.size(), 8U);
     EXPECT_EQ(loaded.mesh.triangles.size(), 12U);
   }
