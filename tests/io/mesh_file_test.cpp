@@ -228,6 +228,10 @@ TEST_F(MeshFileTest, WhatIsNoMeshSaysSo) {
                 std::string(folder_ / "a.none") + "\".");
   EXPECT_EQ(error_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
             no_mesh + "OBJ: vertex index out of range");
+  std::string const cube_text = test::ply_text(cube(1));
+  std::string const head = cube_text.substr(0, cube_text.rfind("3 "));
+  EXPECT_EQ(error_of("a.ply", head + "4 0 1 2 8\n"), no_mesh + "face 11 names vertex 8 of 8");
+  EXPECT_EQ(error_of("a.ply", head + "0\n"), no_mesh + "face 11 has no vertices");
 }
 
 TEST_F(MeshFileTest, PrintsNothing) {
