@@ -8,7 +8,8 @@
 
 namespace credo {
 
-/// What one unit of a mesh file's numbers is; most formats do not say.
+/// What one unit of a mesh file's numbers is; most formats do not say. Collada does, and is read in
+/// metres: give kMetre.
 enum class MeshUnit : std::uint8_t { kMetre, kMillimetre };
 
 /// A mesh as a file holds it.
@@ -27,7 +28,8 @@ struct LoadedMesh {
 ///
 /// Throws InputError for a file that cannot be read or is damaged, for no triangles, for a vertex
 /// that is not finite, and for a longest side above 20 m or below 1 mm, which is most often the
-/// wrong unit.
+/// wrong unit. Text formats but PLY do not say how much they hold: one that is cut between two of
+/// its faces passes as an open mesh.
 LoadedMesh read_mesh(std::filesystem::path const& path, MeshUnit unit);
 
 }  // namespace credo

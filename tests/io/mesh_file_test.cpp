@@ -254,7 +254,7 @@ struct Linemod {
 
 class LinemodTest : public testing::TestWithParam<Linemod> {};
 
-TEST_P(LinemodTest, HasItsSize) {
+TEST_P(LinemodTest, HasItsSizeAndBoundary) {
   CREDO_REQUIRE_RECORDING("objects/lmo");
   Linemod const& expected = GetParam();
   std::filesystem::path const folder = test::recordings() / "objects/lmo";
@@ -280,7 +280,10 @@ INSTANTIATE_TEST_SUITE_P(All, LinemodTest,
                          testing::Values(Linemod{1, 5646, 0}, Linemod{5, 18688, 0},
                                          Linemod{6, 9338, 0}, Linemod{8, 20426, 0},
                                          Linemod{9, 7054, 0}, Linemod{10, 15642, 92, 0.9},
-                                         Linemod{11, 6830, 0}, Linemod{12, 13828, 1}));
+                                         Linemod{11, 6830, 0}, Linemod{12, 13828, 1}),
+                         [](testing::TestParamInfo<Linemod> const& test) {
+                           return "Number" + std::to_string(test.param.number);
+                         });
 
 }  // namespace
 }  // namespace credo
