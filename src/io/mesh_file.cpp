@@ -58,11 +58,16 @@ std::string on_one_line(std::string text) {
   throw std::invalid_argument("is no mesh that can be read: " + on_one_line(reason));
 }
 
-void check_indices(aiScene const& scene) {
+/// Refuses what assimp's own steps do not survive: faces of no vertices, or of some that are not
+/// there.
+void check_faces(aiScene const& scene) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     aiMesh const& mesh = *scene.mMeshes[m];
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       aiFace const& face = mesh.mFaces[f];
+      if (face.mNumIndices == 0) {
+        refuse("face " + std::to_string(f) + " has no vertices");
+      }
       for (unsigned i = 0; i < face.mNumIndices; ++i) {
         if (face.mIndices[i] >= mesh.mNumVertices) {
           refuse("face " + std::to_string(f) + " names vertex " + std::to_string(face.mIndices[i]) +
@@ -82,8 +87,7 @@ aiScene const& import(Assimp::Importer& importer, fs::path const& path) {
   if (scene == nullptr) {
     refuse(importer.GetErrorString());
   }
-  // Before assimp follows them.
-  check_indices(*scene);
+  check_faces(*scene);
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     refuse(importer.GetErrorString());

@@ -24,7 +24,8 @@ struct LoadedMesh {
 ///
 /// Throws InputError for a file that cannot be read or is damaged, for no triangles, for a vertex
 /// that is not finite, and for a longest side above 20 m or below 1 mm, which is most often the
-/// wrong unit.
+/// wrong unit. Text formats but PLY do not say how much they hold: one that is cut between two of
+/// its faces passes as an open mesh.
 LoadedMesh read_mesh(std::filesystem::path const& path, LengthUnit unit);
 
 }  // namespace credo

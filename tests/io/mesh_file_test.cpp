@@ -228,6 +228,10 @@ TEST_F(MeshFileTest, WhatIsNoMeshSaysSo) {
                 std::string(folder_ / "a.none") + "\".");
   EXPECT_EQ(error_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
             no_mesh + "OBJ: vertex index out of range");
+  std::string const cube_text = test::ply_text(cube(1));
+  std::string const head = cube_text.substr(0, cube_text.rfind("3 "));
+  EXPECT_EQ(error_of("a.ply", head + "4 0 1 2 8\n"), no_mesh + "face 11 names vertex 8 of 8");
+  EXPECT_EQ(error_of("a.ply", head + "0\n"), no_mesh + "face 11 has no vertices");
 }
 
 TEST_F(MeshFileTest, PrintsNothing) {
@@ -250,7 +254,7 @@ struct Linemod {
 
 class LinemodTest : public testing::TestWithParam<Linemod> {};
 
-TEST_P(LinemodTest, HasItsSize) {
+TEST_P(LinemodTest, HasItsSizeAndBoundary) {
   CREDO_REQUIRE_RECORDING("objects/lmo");
   Linemod const& expected = GetParam();
   std::filesystem::path const folder = test::recordings() / "objects/lmo";
@@ -276,7 +280,10 @@ INSTANTIATE_TEST_SUITE_P(All, LinemodTest,
                          testing::Values(Linemod{1, 5646, 0}, Linemod{5, 18688, 0},
                                          Linemod{6, 9338, 0}, Linemod{8, 20426, 0},
                                          Linemod{9, 7054, 0}, Linemod{10, 15642, 92, 0.9},
-                                         Linemod{11, 6830, 0}, Linemod{12, 13828, 1}));
+                                         Linemod{11, 6830, 0}, Linemod{12, 13828, 1}),
+                         [](testing::TestParamInfo<Linemod> const& test) {
+                           return "Number" + std::to_string(test.param.number);
+                         });
 
 }  // namespace
 }  // namespace credo

@@ -39,15 +39,13 @@ bool in_bounds(Placed const& object, Eigen::Vector3d const& p_model, double marg
   return true;
 }
 
-bool is_seed(Placed const& object, Eigen::Vector3d const& p_model, Eigen::Vector3f const& normal,
-             RegionGrowingConfig const& config) {
+bool is_near(Placed const& object, Eigen::Vector3d const& p_model, Eigen::Vector3f const& normal,
+             double reach_m, RegionGrowingConfig const& config) {
   SurfaceDistance const surface = object.shape.distance_to(p_model);
-  double const reach_m =
-      object.shape.closed() ? config.seed_distance_m : config.open_mesh_distance_m;
   if (surface.distance_m > reach_m) {
     return false;
   }
-  if (config.seed_max_angle_rad >= std::numbers::pi) {
+  if (config.max_model_angle_rad >= std::numbers::pi) {
     return true;
   }
   if (!normal.allFinite()) {
@@ -55,7 +53,14 @@ bool is_seed(Placed const& object, Eigen::Vector3d const& p_model, Eigen::Vector
   }
   double const cosine =
       surface.normal.dot(object.T_model_camera.rotation() * normal.cast<double>());
-  return (object.shape.closed() ? cosine : std::abs(cosine)) > std::cos(config.seed_max_angle_rad);
+  return (object.shape.closed() ? cosine : std::abs(cosine)) > std::cos(config.max_model_angle_rad);
+}
+
+bool is_seed(Placed const& object, Eigen::Vector3d const& p_model, Eigen::Vector3f const& normal,
+             RegionGrowingConfig const& config) {
+  return is_near(object, p_model, normal,
+                 object.shape.closed() ? config.seed_distance_m : config.open_mesh_distance_m,
+                 config);
 }
 
 }  // namespace
@@ -87,7 +92,9 @@ LabelMap literal_regions(Frame const& frame, NormalMap const& normals,
       if (labels[i] == object.label) {
         queue.push(i);
       } else if (labels[i] == kUnassigned && cloud.valid(i) &&
-                 in_bounds(object, in_model(object, i), config.bounds_margin_m)) {
+                 in_bounds(object, in_model(object, i), config.bounds_margin_m) &&
+                 is_near(object, in_model(object, i), normals.at(i), config.max_distance_m,
+                         config)) {
         free.push_back(i);
       }
     }

@@ -74,36 +74,44 @@ std::vector<std::size_t> pixels_in_bounds(OrganizedCloud const& cloud, PlacedSha
   return pixels;
 }
 
-std::vector<std::size_t> seeds_among(std::vector<std::size_t> const& pixels,
-                                     OrganizedCloud const& cloud, NormalMap const& normals,
-                                     PlacedShape const& placed, RegionGrowingConfig const& config) {
-  double const reach_m =
+ObjectPixels object_pixels(std::vector<std::size_t> const& pixels, OrganizedCloud const& cloud,
+                           NormalMap const& normals, PlacedShape const& placed,
+                           RegionGrowingConfig const& config) {
+  double const seed_reach_m =
       placed.shape->closed() ? config.seed_distance_m : config.open_mesh_distance_m;
-  bool const any_normal = config.seed_max_angle_rad >= std::numbers::pi;
-  double const min_cosine = std::cos(config.seed_max_angle_rad);
-  std::vector<std::uint8_t> is_seed(pixels.size(), 0);
+  bool const any_normal = config.max_model_angle_rad >= std::numbers::pi;
+  double const min_cosine = std::cos(config.max_model_angle_rad);
+  constexpr std::uint8_t kAllowed = 1;
+  constexpr std::uint8_t kSeed = 2;
+  std::vector<std::uint8_t> roles(pixels.size(), 0);
   constexpr std::size_t kChunk = 512;
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, pixels.size(), kChunk), [&](auto const& part) {
         for (std::size_t k = part.begin(); k < part.end(); ++k) {
           std::size_t const i = pixels[k];
-          if (!any_normal && !normals.valid(i)) {
+          bool const has_normal = normals.valid(i);
+          if (!any_normal && !has_normal) {
             continue;
           }
           SurfaceDistance const surface =
               placed.shape->distance_to(placed.T_model_camera * cloud.at(i).cast<double>());
-          is_seed[k] = static_cast<std::uint8_t>(
-              surface.distance_m <= reach_m &&
-              (any_normal || faces_alike(normals.at(i), surface, placed, min_cosine)));
+          if (any_normal || faces_alike(normals.at(i), surface, placed, min_cosine)) {
+            bool const allowed = has_normal && surface.distance_m <= config.max_distance_m;
+            roles[k] = static_cast<std::uint8_t>((allowed ? kAllowed : 0U) |
+                                                 (surface.distance_m <= seed_reach_m ? kSeed : 0U));
+          }
         }
       });
-  std::vector<std::size_t> seeds;
+  ObjectPixels result;
   for (std::size_t k = 0; k < pixels.size(); ++k) {
-    if (is_seed[k] != 0) {
-      seeds.push_back(pixels[k]);
+    if ((roles[k] & kAllowed) != 0) {
+      result.allowed.push_back(pixels[k]);
+    }
+    if ((roles[k] & kSeed) != 0) {
+      result.seeds.push_back(pixels[k]);
     }
   }
-  return seeds;
+  return result;
 }
 
 }  // namespace credo

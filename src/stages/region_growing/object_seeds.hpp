@@ -21,11 +21,18 @@ struct PlacedShape {
 [[nodiscard]] std::vector<std::size_t> pixels_in_bounds(OrganizedCloud const& cloud,
                                                         PlacedShape const& placed, double margin_m);
 
-/// Those of `pixels` (with finite points) that seed the object's region, in the same order.
-[[nodiscard]] std::vector<std::size_t> seeds_among(std::vector<std::size_t> const& pixels,
-                                                   OrganizedCloud const& cloud,
-                                                   NormalMap const& normals,
-                                                   PlacedShape const& placed,
-                                                   RegionGrowingConfig const& config);
+/// The pixels that may be of an object, each list in raster order.
+struct ObjectPixels {
+  /// Where its region may grow.
+  std::vector<std::size_t> allowed;
+  /// From where it grows; those without a normal are not among the allowed.
+  std::vector<std::size_t> seeds;
+};
+
+/// Of `pixels`, all with finite points.
+[[nodiscard]] ObjectPixels object_pixels(std::vector<std::size_t> const& pixels,
+                                         OrganizedCloud const& cloud, NormalMap const& normals,
+                                         PlacedShape const& placed,
+                                         RegionGrowingConfig const& config);
 
 }  // namespace credo

@@ -17,9 +17,7 @@ namespace {
 /// An object on its way to its pixels.
 struct Region {
   std::size_t observation = 0;
-  PlacedShape placed;
-  /// Where it may grow.
-  std::vector<std::size_t> bounded;
+  ObjectPixels pixels;
 };
 
 void check(Frame const& frame, NormalMap const& normals, Segmentation const& segmentation) {
@@ -31,8 +29,9 @@ void check(Frame const& frame, NormalMap const& normals, Segmentation const& seg
   }
 }
 
-std::vector<Region> regions_of(OrganizedCloud const& cloud, Segmentation const& segmentation,
-                               ObjectShapes const& shapes, RegionGrowingConfig const& config) {
+std::vector<Region> regions_of(OrganizedCloud const& cloud, NormalMap const& normals,
+                               Segmentation const& segmentation, ObjectShapes const& shapes,
+                               RegionGrowingConfig const& config) {
   std::vector<Region> regions;
   for (std::size_t i = 0; i < segmentation.objects.size(); ++i) {
     ObjectObservation const& object = segmentation.objects[i];
@@ -42,7 +41,8 @@ std::vector<Region> regions_of(OrganizedCloud const& cloud, Segmentation const& 
     }
     PlacedShape const placed{&shape->second,
                              object.pose_world.mean.inverse() * segmentation.T_world_camera};
-    regions.push_back({i, placed, pixels_in_bounds(cloud, placed, config.bounds_margin_m)});
+    regions.push_back({i, object_pixels(pixels_in_bounds(cloud, placed, config.bounds_margin_m),
+                                        cloud, normals, placed, config)});
   }
   return regions;
 }
@@ -86,17 +86,17 @@ Vectors cut_out_vectors(Vectors const& grid, Window const& window) {
   return part;
 }
 
-/// Algorithm 1: the components, among pixels of the region's bounds that are free or its own, that
-/// hold one of its own.
+/// Algorithm 1: the components, among allowed pixels that are free or its own, that hold one of its
+/// own.
 void grow(Region const& region, LabelCode own, OrganizedCloud const& cloud,
           NormalMap const& normals, RegionGrowingConfig const& config, LabelMap& labels) {
-  if (region.bounded.empty()) {
+  if (region.pixels.allowed.empty()) {
     return;
   }
-  Window const window = window_around(region.bounded, cloud.width());
+  Window const window = window_around(region.pixels.allowed, cloud.width());
   Grid<std::uint8_t> active(window.width, window.height);
   auto const width = static_cast<std::size_t>(cloud.width());
-  for (std::size_t const i : region.bounded) {
+  for (std::size_t const i : region.pixels.allowed) {
     if (labels[i] == kUnassigned || labels[i] == own) {
       active[Pixel{static_cast<int>(i % width) - window.left,
                    static_cast<int>(i / width) - window.top}] = 1;
@@ -143,6 +143,16 @@ FieldList fields(RegionGrowingConfig& config) {
        {0, 1},
        "m",
        "how far beyond its model's bounding box a region may grow, on each side"},
+      {"max_distance_m",
+       &config.max_distance_m,
+       {0, 100},
+       "m",
+       "... nor farther from its model's surface, outside, than this"},
+      {"max_model_angle_rad",
+       &config.max_model_angle_rad,
+       {0, 3.15},
+       "rad",
+       "normals of a region are within this angle of the model's; 3.15 = any, or none"},
       {"seed_distance_m",
        &config.seed_distance_m,
        {0, 1},
@@ -153,11 +163,6 @@ FieldList fields(RegionGrowingConfig& config) {
        {0, 1},
        "m",
        "the same for a mesh with holes, which has no inside"},
-      {"seed_max_angle_rad",
-       &config.seed_max_angle_rad,
-       {0, 3.15},
-       "rad",
-       "a seed's normal is within this angle of the model's; 3.15 = any, or none"},
   };
 }
 
@@ -166,10 +171,11 @@ Segmentation grow_objects(Frame const& frame, NormalMap const& normals, Segmenta
   check(frame, normals, segmentation);
   OrganizedCloud const& cloud = frame.cloud_camera;
   LabelMap& labels = segmentation.labels;
-  std::vector<Region> const regions = regions_of(cloud, segmentation, shapes, config);
+  std::vector<Region> const regions = regions_of(cloud, normals, segmentation, shapes, config);
   for (Region const& region : regions) {
     LabelCode const own = segmentation.objects[region.observation].label;
-    for (std::size_t const i : seeds_among(region.bounded, cloud, normals, region.placed, config)) {
+    for (std::size_t const i :
+         seeds_among(region.pixels.allowed, cloud, normals, region.placed, config)) {
       if (labels[i] == kUnassigned) {
         labels[i] = own;
       }
@@ -178,8 +184,7 @@ Segmentation grow_objects(Frame const& frame, NormalMap const& normals, Segmenta
   for (Region const& region : regions) {
     ObjectObservation& object = segmentation.objects[region.observation];
     grow(region, object.label, cloud, normals, config, labels);
-    object.pixel_count = static_cast<std::size_t>(std::ranges::count_if(
-        region.bounded, [&](std::size_t i) { return labels[i] == object.label; }));
+    object.pixel_count = static_cast<std::size_t>(std::ranges::count(labels, object.label));
   }
   return segmentation;
 }

@@ -14,16 +14,19 @@ struct RegionGrowingConfig {
   double radius_m = 0.03;
   /// ... whose normals differ by less than this joins it (T: 0.3).
   double max_angle_rad = 0.3;
-  /// The region stays within the model's bounding box, so much larger on each side ("loosely").
+  /// The region stays within the model's bounding box, so much larger on each side ("loosely") ...
   double bounds_margin_m = 0.03;
+  /// ... and within this distance of the model's surface, or inside (T: no such limit). A cat's
+  /// bounding box holds more desk than cat.
+  double max_distance_m = 0.015;
+  /// Points of a region have a normal within this angle of that of the model's nearest surface, so
+  /// that a table is not taken for the box on it; pi or more switches it off (T).
+  double max_model_angle_rad = 0.6;
   /// Points within this distance outside the model seed its region like those inside (T: 0): a pose
   /// that is off by a little must not lose a whole face.
   double seed_distance_m = 0.01;
   /// The same for a mesh with holes, which has no inside.
   double open_mesh_distance_m = 0.015;
-  /// Seeds have a normal within this angle of that of the model's nearest surface, so that a table
-  /// is not taken for the box on it; pi or more switches it off (T).
-  double seed_max_angle_rad = 0.6;
 };
 FieldList fields(RegionGrowingConfig& config);
 
@@ -32,9 +35,9 @@ FieldList fields(RegionGrowingConfig& config);
 ///
 /// The seeds of all objects are claimed before anything grows, objects in the order of the
 /// observations; then each grows over pixels that nothing has claimed, as algorithm 1 says, never
-/// out of its bounds. Only pixels that come kUnassigned are taken. What is reached is exactly what
+/// out of its limits. Only pixels that come kUnassigned are taken. What is reached is exactly what
 /// the algorithm reaches, pixel for pixel: the components of the graph of reachability.hpp that
-/// hold a seed. Pixels without a normal are seeds at most, where seed_max_angle_rad is off, and
+/// hold a seed. Pixels without a normal are seeds at most, where max_model_angle_rad is off, and
 /// nothing grows from them.
 ///
 /// Throws std::logic_error where the sizes of cloud, normals and labels differ.

@@ -112,7 +112,8 @@ TEST(RegionRecordings, TheCatIsWhatAlgorithmOneGives) {
   for (bool const thesis : {false, true}) {
     RegionGrowingConfig config;
     config.seed_distance_m = thesis ? 0.0 : config.seed_distance_m;
-    config.seed_max_angle_rad = thesis ? 3.15 : config.seed_max_angle_rad;
+    config.max_model_angle_rad = thesis ? 3.15 : config.max_model_angle_rad;
+    config.max_distance_m = thesis ? 100 : config.max_distance_m;
     Segmentation const result =
         grow_objects(*cat.frame, cat.normals, cat.segmentation, shapes_of(cat.models), config);
     EXPECT_EQ(result.labels,
