@@ -33,7 +33,7 @@ namespace {
 constexpr char const* kExamples = R"(Examples:
   credo run --source dataset:recordings/kitchen --out out/kitchen --dump labels,pictures
   credo run --source dataset:recordings/kitchen --frames 40 --set graph.threads=1
-  credo run --source sim:box-on-table --prior scenes/box-on-table.prior.yaml \
+  credo run --source sim:box-on-table --prior scenes/priors/box-on-table.yaml \
       --set detector.kind=sim --out out/box --dump pictures
   credo run --source dataset:clouds --set capture.independent_frames=true --out out/clouds
 

@@ -44,8 +44,9 @@ struct Prior {
   std::vector<ObjectBelief> objects;
 };
 
-/// The file's pose distributions, in its order. Throws InputError beginning with `where`, and naming
-/// the entry, where one is incomplete or its id used twice. An object's type is its entry's model.
+/// The file's pose distributions, in its order. Throws InputError beginning with `where`, and
+/// naming the entry, where one is incomplete or its id used twice. An object's type is its entry's
+/// model.
 [[nodiscard]] Prior prior_of(PriorFile const& file, double probability, std::string const& where);
 
 /// The belief to begin with where the first frame is taken at `T_world_camera`.

@@ -231,7 +231,8 @@ void check_size(std::vector<Eigen::Vector3f> const& vertices, LengthUnit unit) {
   if (fits(size_m)) {
     return;
   }
-  LengthUnit const other = unit == LengthUnit::kMetre ? LengthUnit::kMillimetre : LengthUnit::kMetre;
+  LengthUnit const other =
+      unit == LengthUnit::kMetre ? LengthUnit::kMillimetre : LengthUnit::kMetre;
   std::ostringstream text;
   text << "is " << size_m << " m across in " << name_of(unit) << "; ";
   if (fits(size_m / metres_per(unit) * metres_per(other))) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "geometry/solid.hpp"
+#include "sim/scene_time.hpp"
 #include "sim/thing.hpp"
 
 namespace credo {
@@ -124,20 +125,24 @@ struct RayCaster::World {
   Device device;
   BodyTree tree;
 
-  explicit World(Scene const& scene);
+  World(Scene const& scene, double time_s);
   void render_row(Se3 const& T_world_camera, std::vector<BodyView> const& views, int v,
                   RenderedView& view) const;
   void take_hit(RayPacket const& packet, std::size_t lane, Pixel pixel, RenderedView& view) const;
 };
 
-RayCaster::World::World(Scene const& scene)
+RayCaster::World::World(Scene const& scene, double time_s)
     : camera(scene.camera), device(rtcNewDevice(nullptr)), tree(rtcNewScene(device.get())) {
   if (tree == nullptr) {
     throw std::runtime_error("Embree does not start on this machine");
   }
   Eigen::Vector3d const to_lamp_world = Eigen::Vector3d(-0.35, -0.25, 0.9).normalized();
-  for (std::size_t i = 0; i < scene.things.size(); ++i) {
-    SceneThing const& thing = scene.things[i];
+  PresentThings const things = things_at(scene, time_s);
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    if (!things[i].has_value()) {
+      continue;
+    }
+    SceneThing const& thing = *things[i];
     Se3 const T_world_thing = pose_of(thing);
     for (Solid const& solid : solids_of(thing)) {
       bodies.push_back(
@@ -214,9 +219,9 @@ void RayCaster::World::render_row(Se3 const& T_world_camera, std::vector<BodyVie
   }
 }
 
-RayCaster::RayCaster(Scene const& scene) {
+RayCaster::RayCaster(Scene const& scene, double time_s) {
   check_scene(scene);
-  world_ = std::make_unique<World>(scene);
+  world_ = std::make_unique<World>(scene, time_s);
 }
 
 RayCaster::~RayCaster() = default;

@@ -20,13 +20,14 @@ struct RenderedView {
   Grid<std::int32_t> thing;
 };
 
-/// The bodies of a scene in a tree, built once (Embree). Each ray is followed into the bodies'
-/// equations in doubles: depth is exact to float precision and the same on every machine. A body
-/// that the camera is inside of is not seen.
+/// The bodies of a scene as it stands at one time, in a tree built once (Embree). Each ray is
+/// followed into the bodies' equations in doubles: depth is exact to float precision and the same
+/// on every machine. A body that the camera is inside of is not seen.
 class RayCaster {
 public:
   /// Throws InputError for a scene that check_scene refuses.
-  explicit RayCaster(Scene const& scene);
+  /// The time is on the clock of the scene's events, and nothing to a scene without.
+  explicit RayCaster(Scene const& scene, double time_s = 0.0);
   RayCaster(RayCaster const&) = delete;
   RayCaster& operator=(RayCaster const&) = delete;
   RayCaster(RayCaster&&) = delete;

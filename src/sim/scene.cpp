@@ -1,6 +1,7 @@
 #include "sim/scene.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "core/error.hpp"
@@ -28,6 +29,10 @@ Field point(std::string name, std::vector<double>& values, std::string text) {
   return {std::move(name), NumbersTarget{&values, 3, 3}, {-1000, 1000}, "m", std::move(text)};
 }
 
+Field turn(std::vector<double>& values, std::size_t min_count, std::string text) {
+  return {"rpy_deg", NumbersTarget{&values, min_count, 3}, {-360, 360}, "deg", std::move(text)};
+}
+
 [[noreturn]] void refuse(Scene const& scene, std::string const& what) {
   throw InputError("scene " + scene.name + ": " + what);
 }
@@ -40,6 +45,9 @@ void check_thing(Scene const& scene, SceneThing const& thing) {
   }
   if (std::any_of(thing.size_m.begin(), thing.size_m.end(), [](double s) { return !(s > 0); })) {
     refuse(scene, thing.name + ": every number of size_m must be positive");
+  }
+  if (!thing.type.empty() && thing.kind != SceneKind::kObject) {
+    refuse(scene, thing.name + ": only a thing of kind object has a type");
   }
 }
 
@@ -58,12 +66,63 @@ void check_path(Scene const& scene) {
   }
 }
 
+/// What an event says, whatever came before it. `where` begins the line.
+void check_words(Scene const& scene, SceneEvent const& event, std::string const& where) {
+  if (!(event.time_s >= 0.0)) {
+    refuse(scene, where + "time_s must not be negative");
+  }
+  if (std::none_of(scene.things.begin(), scene.things.end(),
+                   [&](SceneThing const& thing) { return thing.name == event.thing; })) {
+    refuse(scene, where + "there is no thing '" + event.thing + "'");
+  }
+  for (auto const& [name, numbers] :
+       {std::pair("position_m", &event.position_m), std::pair("rpy_deg", &event.rpy_deg)}) {
+    if (!numbers->empty() && numbers->size() != 3) {
+      refuse(scene, where + name + " needs 0 or 3 numbers, has " + std::to_string(numbers->size()));
+    }
+    if (!numbers->empty() && event.what == SceneChange::kRemoved) {
+      refuse(scene, where + "what is removed has no " + name);
+    }
+  }
+  if (event.what == SceneChange::kMoved && event.position_m.empty()) {
+    refuse(scene, where + "what is moved needs position_m");
+  }
+}
+
+/// That each event can follow those before it.
+void check_events(Scene const& scene) {
+  struct State {
+    bool present;
+    double time_s;
+  };
+  std::map<std::string, State> states;
+  double last_s = 0.0;
+  for (std::size_t i = 0; i < scene.events.size(); ++i) {
+    SceneEvent const& event = scene.events[i];
+    std::string const where = "events[" + std::to_string(i) + "]: ";
+    check_words(scene, event, where);
+    bool const appears = event.what == SceneChange::kAppeared;
+    auto const [state, is_first] = states.insert({event.thing, {!appears, event.time_s}});
+    if (event.time_s < last_s || (!is_first && event.time_s == state->second.time_s)) {
+      refuse(scene, where + "time_s must rise, only different things may share a time");
+    }
+    if (appears == state->second.present) {
+      refuse(scene, where + event.thing +
+                        (appears ? " is there already, it cannot appear"
+                                 : " is absent, it cannot be moved or removed"));
+    }
+    state->second = {event.what != SceneChange::kRemoved, event.time_s};
+    last_s = event.time_s;
+  }
+}
+
 }  // namespace
 
 FieldList fields(SceneThing& thing) {
   return {
       {"name", &thing.name, {}, "", "unique in the scene"},
       choice("kind", thing.kind, {"floor", "wall", "object", "stuff"}, "what it is to the belief"),
+      {"type", &thing.type, {}, "", "of an object: its model's name; empty = its own name"},
       choice("shape", thing.shape, {"box", "cylinder", "sphere", "table"}, "its primitive"),
       {"size_m",
        NumbersTarget{&thing.size_m, 1, 5},
@@ -71,11 +130,7 @@ FieldList fields(SceneThing& thing) {
        "m",
        "box x y z; cylinder radius height; sphere radius; table x y height thickness leg"},
       point("position_m", thing.position_m, "centre of its base in the world"),
-      {"rpy_deg",
-       NumbersTarget{&thing.rpy_deg, 3, 3},
-       {-360, 360},
-       "deg",
-       "turns about the fixed axes x, y, z"},
+      turn(thing.rpy_deg, 3, "turns about the fixed axes x, y, z"),
       {"color", NumbersTarget{&thing.color, 3, 3}, {0, 255}, "", "red, green, blue"},
       {"checker_m", &thing.checker_m, {0, 10}, "m", "side of a checkerboard's squares; 0 = plain"},
   };
@@ -104,9 +159,24 @@ FieldList fields(SceneCamera& camera) {
   };
 }
 
+FieldList fields(SceneEvent& event) {
+  return {
+      {"time_s", &event.time_s, {0, 86400}, "s", "when, on the clock of the camera's path"},
+      {"thing", &event.thing, {}, "", "name of the thing"},
+      choice("what", event.what, {"appeared", "moved", "removed"}, "what happens to it"),
+      {"position_m",
+       NumbersTarget{&event.position_m, 0, 3},
+       {-1000, 1000},
+       "m",
+       "where it stands from then on; empty = its own"},
+      turn(event.rpy_deg, 0, "how it is turned from then on; empty = as it was"),
+  };
+}
+
 FieldList fields(Scene& scene) {
   return {
       list_of("things", scene.things, "what stands in the world, the floor and walls too"),
+      list_of("events", scene.events, "what changes, in order of time"),
       section("camera", fields(scene.camera), "the sensor and its way"),
   };
 }
@@ -123,6 +193,7 @@ void check_scene(Scene const& scene) {
     check_thing(scene, thing);
   }
   check_path(scene);
+  check_events(scene);
 }
 
 fs::path find_scene(std::string const& name_or_file) {

@@ -23,6 +23,8 @@ enum class SceneKind : std::uint8_t { kGround, kWall, kObject, kStuff };
 struct SceneThing {
   std::string name;
   SceneKind kind = SceneKind::kStuff;
+  /// Of an object: the name of the model that a prior calls it by. Empty: its own name (type_of).
+  std::string type;
   SceneShape shape = SceneShape::kBox;
   std::vector<double> size_m;
   std::vector<double> position_m = {0, 0, 0};
@@ -57,16 +59,36 @@ struct SceneCamera {
 };
 FieldList fields(SceneCamera& camera);
 
+enum class SceneChange : std::uint8_t { kAppeared, kMoved, kRemoved };
+
+/// What happens to a thing, seen from the first frame at or after its time. A thing whose first
+/// event is that it appears is absent before.
+struct SceneEvent {
+  /// On the clock of the waypoints.
+  double time_s = 0.0;
+  /// Its name.
+  std::string thing;
+  SceneChange what = SceneChange::kMoved;
+  /// Where it stands from then on, three numbers. Empty: it appears where Scene::things has it.
+  std::vector<double> position_m;
+  /// Three numbers. Empty: what moves keeps its turn, what appears has that of Scene::things.
+  std::vector<double> rpy_deg;
+};
+FieldList fields(SceneEvent& event);
+
 /// A simulated world, z up, floor at z = 0, and the way a camera takes through it.
 struct Scene {
   std::string name;
   std::vector<SceneThing> things;
+  /// In order of time.
+  std::vector<SceneEvent> events;
   SceneCamera camera;
 };
 FieldList fields(Scene& scene);
 
 /// Throws InputError naming the thing that cannot be: sizes missing or not positive, names twice,
-/// no things, no camera path, times that do not rise, a camera that looks at where it is.
+/// no things, a type without an object, no camera path, times that do not rise, a camera that looks
+/// at where it is, an event of a thing that is unknown, or absent, or there already.
 void check_scene(Scene const& scene);
 
 /// The file of a scene given by name (scenes/NAME.yaml of this project) or as a path. Throws

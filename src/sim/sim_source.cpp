@@ -5,11 +5,13 @@
 
 #include "core/error.hpp"
 #include "sim/camera_path.hpp"
+#include "sim/scene_time.hpp"
 
 namespace credo {
 
 SimSource::SimSource(Scene const& scene, PoseConfig const& pose)
-    : scene_(scene), has_poses_(pose.source == PoseSource::kRecorded), caster_(scene) {
+    : scene_(scene), has_poses_(pose.source == PoseSource::kRecorded) {
+  check_scene(scene);
   if (pose.source == PoseSource::kFile) {
     throw InputError("scene " + scene.name +
                      ": a simulated camera has its own poses; pose.source must not be file");
@@ -18,19 +20,27 @@ SimSource::SimSource(Scene const& scene, PoseConfig const& pose)
   double const duration_s = path.back().time_s - path.front().time_s;
   frame_count_ =
       1 + static_cast<std::size_t>(std::floor(duration_s * scene_.camera.frames_per_s + 1e-9));
+  double const start_s = scene_time_s(scene_, FrameIndex{0});
+  event_count_ = event_count_at(scene_, start_s);
+  caster_ = std::make_unique<RayCaster>(scene_, start_s);
 }
 
 SourceResult SimSource::next() {
   if (position_ == frame_count_) {
     return EndOfSource{};
   }
-  std::size_t const index = position_++;
+  FrameIndex const index{static_cast<std::int64_t>(position_++)};
   SceneCamera const& camera = scene_.camera;
-  double const since_s = static_cast<double>(index) / camera.frames_per_s;
-  Se3 const T_world_camera = camera_pose(camera.path, camera.path.front().time_s + since_s);
-  RenderedView view = caster_.render(T_world_camera);
+  double const time_s = scene_time_s(scene_, index);
+  if (std::size_t const count = event_count_at(scene_, time_s); count != event_count_) {
+    event_count_ = count;
+    caster_ = std::make_unique<RayCaster>(scene_, time_s);
+  }
+  Se3 const T_world_camera = camera_pose(camera.path, time_s);
+  RenderedView view = caster_->render(T_world_camera);
   auto frame = std::make_shared<Frame>();
-  frame->index = FrameIndex{static_cast<std::int64_t>(index)};
+  frame->index = index;
+  double const since_s = time_s - scene_time_s(scene_, FrameIndex{0});
   frame->stamp_ns = static_cast<std::int64_t>(std::llround(since_s * 1e9));
   frame->intrinsics = {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
   frame->cloud_camera = cloud_from_depth(std::move(view.depth_m), frame->intrinsics);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "core/capture_config.hpp"
 #include "core/frame_source.hpp"
@@ -10,8 +11,8 @@
 namespace credo {
 
 /// Plays a scene as a noise-free RGB-D camera: a frame every 1 / frames_per_s from the first
-/// waypoint to the last, with its true pose (source frame = the scene's world), or without where
-/// poses are `fixed`.
+/// waypoint to the last, of the things as they stand then, with its true pose (source frame = the
+/// scene's world), or without where poses are `fixed`.
 class SimSource : public FrameSource {
 public:
   /// Throws InputError for a scene that check_scene refuses, or pose.source: file.
@@ -23,7 +24,9 @@ public:
 private:
   Scene scene_;
   bool has_poses_;
-  RayCaster caster_;
+  /// Of the things after the first event_count_ events.
+  std::unique_ptr<RayCaster const> caster_;
+  std::size_t event_count_;
   std::size_t frame_count_;
   std::size_t position_ = 0;
 };

@@ -17,6 +17,10 @@ std::vector<Solid> solids_of(SceneThing const& thing) {
   return {};
 }
 
+std::string const& type_of(SceneThing const& thing) {
+  return thing.type.empty() ? thing.name : thing.type;
+}
+
 Se3 pose_of(SceneThing const& thing) {
   return {rotation_of_rpy_deg({thing.rpy_deg[0], thing.rpy_deg[1], thing.rpy_deg[2]}),
           {thing.position_m[0], thing.position_m[1], thing.position_m[2]}};

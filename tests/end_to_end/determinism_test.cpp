@@ -23,17 +23,19 @@ namespace {
 namespace fs = std::filesystem;
 
 /// belief.jsonl as run_once gives it.
-std::vector<std::string> specified_lines(std::unique_ptr<FrameSource> opened, int frames,
-                                         PipelineConfig const& config) {
+std::vector<std::string> specified_lines(
+    std::unique_ptr<FrameSource> opened, int frames, PipelineConfig const& config,
+    BeliefState const& prior_belief = {},
+    std::shared_ptr<KnownObjects const> const& known = std::make_shared<KnownObjects>()) {
   ReadAhead source(std::move(opened), frames);
   WorldLevel const level = find_level_ahead(source, config.pose);
-  auto const prior = std::make_shared<BeliefState const>();
+  auto const prior = std::make_shared<BeliefState const>(prior_belief);
   std::vector<std::string> lines;
   RunSink const sink = {[&](FrameResult const& result) -> Delivery {
                           return [&lines, result] { lines.push_back(belief_json(*result.belief)); };
                         },
                         [](FrameFailure const&) {}};
-  run_once(source, make_stages(config, level, prior), sink, config.graph, prior, {});
+  run_once(source, make_stages(config, level, {}, known), sink, config.graph, prior, {});
   return lines;
 }
 

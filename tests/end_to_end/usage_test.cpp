@@ -51,9 +51,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "--frames: x: must be 1 or more; see credo --help"},
         BadUsage{"DumpWithoutOut", sim_with({"--dump", "labels"}),
                  "--dump has nowhere to write: add --out DIR"},
-        BadUsage{"Prior", sim_with({"--prior", "room.yaml"}),
-                 "--prior room.yaml: this build knows no objects yet; leave it out to start from "
-                 "nothing"},
+        BadUsage{"Prior", sim_with({"--prior", "/nowhere/room.yaml"}),
+                 "/nowhere/room.yaml: config file cannot be read"},
         BadUsage{"UnknownSource",
                  {"run", "--source", "kitchen"},
                  "--source kitchen: names no source; write dataset:DIR or sim:NAME-or-FILE"},
@@ -68,8 +67,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "dataset /nowhere: no such folder"},
         BadUsage{"NoScene",
                  {"run", "--source", "sim:nowhere"},
-                 "sim:nowhere: no such scene or file; scenes are first-light, table-before-wall, "
-                 "wall-and-floor"},
+                 "sim:nowhere: no such scene or file; scenes are bottle-moves, box-on-table, "
+                 "first-light, table-before-wall, wall-and-floor"},
         BadUsage{"PosesOfASimulation", sim_with({"--set", "pose.source=file"}),
                  "scene first-light: a simulated camera has its own poses; pose.source must not be "
                  "file"},

@@ -19,6 +19,15 @@ inline SceneThing thing(std::string name, SceneShape shape, std::vector<double> 
   return result;
 }
 
+/// A known object with a name and a type.
+inline SceneThing object(std::string name, std::string type, SceneShape shape,
+                         std::vector<double> size_m, std::vector<double> position_m) {
+  SceneThing result = thing(std::move(name), shape, std::move(size_m), std::move(position_m));
+  result.kind = SceneKind::kObject;
+  result.type = std::move(type);
+  return result;
+}
+
 /// 64 x 48 pixels, looking along +x from 1 m above the origin, at rest.
 inline Scene small_scene(std::vector<SceneThing> things) {
   Scene scene;

@@ -37,5 +37,10 @@ TEST(Thing, PosesTurnAboutTheFixedAxesInOrder) {
   EXPECT_NEAR((T * Vector3d(0, 0, 1) - Vector3d(2, 2, 3)).norm(), 0, 1e-12);
 }
 
+TEST(Thing, ATypeIsTheNameUnlessGiven) {
+  EXPECT_EQ(type_of(object("mug_1", "mug", SceneShape::kSphere, {1}, {0, 0, 0})), "mug");
+  EXPECT_EQ(type_of(object("mug", "", SceneShape::kSphere, {1}, {0, 0, 0})), "mug");
+}
+
 }  // namespace
 }  // namespace credo::test

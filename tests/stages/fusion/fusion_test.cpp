@@ -29,7 +29,8 @@ BeliefState prior_with(std::vector<std::string> const& ids) {
     object.id = id;
     object.type = "box";
     object.log_odds = log_odds_of(FusionConfig{}.prior_probability);
-    object.pose_world.mean = Se3(Eigen::Quaterniond::Identity(), {1, 0, 0});
+    object.pose_world = {Se3(Eigen::Quaterniond::Identity(), {1, 0, 0}),
+                         1e-3 * Matrix6d::Identity()};
   }
   return prior;
 }
@@ -38,6 +39,8 @@ ObjectObservation object_seen(LabelCode label, std::string id) {
   ObjectObservation seen;
   seen.label = label;
   seen.object_id = std::move(id);
+  seen.pixel_count = 1000;
+  seen.pose_world = {Se3(Eigen::Quaterniond::Identity(), {1, 0, 0}), 1e-4 * Matrix6d::Identity()};
   return seen;
 }
 
@@ -122,6 +125,7 @@ TEST(Fuse, TakesEmptySegmentations) {
 
 TEST(Fuse, BelievesObjectsThatAreSeenAndDoubtsThoseThatAreNot) {
   Segmentation segmentation = empty_segmentation(0);
+  segmentation.objects_looked_for = true;
   segmentation.objects = {object_seen(3001, "box_2"), object_seen(3002, "unheard_of")};
   BeliefState belief = prior_with({"box_1", "box_2"});
   for (int i = 0; i < 3; ++i) {

@@ -1,0 +1,91 @@
+// The scenes of known objects show what they are for.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <variant>
+
+#include "config/yaml_config.hpp"
+#include "sim/camera_path.hpp"
+#include "sim/ray_caster.hpp"
+#include "sim/scene.hpp"
+#include "sim/scene_time.hpp"
+#include "sim/sim_source.hpp"
+#include "sim/visibility.hpp"
+
+namespace credo::test {
+namespace {
+
+Scene project_scene(std::string const& name) {
+  Scene scene;
+  scene.name = name;
+  load_config(fields(scene), {find_scene(name)}, {});
+  check_scene(scene);
+  return scene;
+}
+
+std::size_t position_of(Scene const& scene, std::string const& name) {
+  auto const found = std::find_if(scene.things.begin(), scene.things.end(),
+                                  [&](SceneThing const& thing) { return thing.name == name; });
+  return static_cast<std::size_t>(found - scene.things.begin());
+}
+
+/// Visible share of a thing in a frame; `alone` takes all others away.
+double seen(Scene const& scene, std::int64_t frame, std::string const& name, bool alone = false) {
+  double const time_s = scene_time_s(scene, FrameIndex{frame});
+  std::size_t const position = position_of(scene, name);
+  PresentThings things = things_at(scene, time_s);
+  for (std::size_t i = 0; alone && i < things.size(); ++i) {
+    if (i != position) {
+      things[i].reset();
+    }
+  }
+  return visible_fraction(scene.camera, things, position, camera_pose(scene.camera.path, time_s));
+}
+
+std::size_t frame_count(Scene const& scene) {
+  return SimSource(scene, {}).frame_count();
+}
+
+TEST(ProjectScenes, TheBoxOnTheTableIsSeenFromAllSides) {
+  Scene const scene = project_scene("box-on-table");
+  ASSERT_EQ(frame_count(scene), 9U);
+  for (std::int64_t i = 0; i < 9; ++i) {
+    EXPECT_GE(seen(scene, i, "table"), 0.6) << i;
+    EXPECT_GE(seen(scene, i, "box"), 0.6) << i;
+  }
+}
+
+TEST(ProjectScenes, TheBottleMovesInThirdFrameAndIsNeverHidden) {
+  Scene const scene = project_scene("bottle-moves");
+  ASSERT_EQ(frame_count(scene), 6U);
+  std::size_t const bottle = position_of(scene, "bottle");
+  for (std::int64_t i = 0; i < 6; ++i) {
+    EXPECT_GE(seen(scene, i, "table"), 0.6) << i;
+    EXPECT_EQ(seen(scene, i, "table", true), 1.0) << "wholly in the picture, " << i;
+    EXPECT_EQ(seen(scene, i, "bottle"), 1.0) << i;
+    auto const now = things_at(scene, scene_time_s(scene, FrameIndex{i}))[bottle];
+    ASSERT_TRUE(now.has_value());
+    EXPECT_EQ(now->position_m[1], i < 2 ? 0.0 : -0.4);
+  }
+}
+
+TEST(ProjectScenes, SharesAgreeWithThePicture) {
+  Scene const scene = project_scene("box-on-table");
+  Scene alone = scene;
+  std::size_t const table = position_of(scene, "table");
+  alone.things = {scene.things[table]};
+  for (std::int64_t const i : {0, 3, 8}) {
+    Se3 const T = camera_pose(scene.camera.path, scene_time_s(scene, FrameIndex{i}));
+    RenderedView const all = RayCaster(scene).render(T);
+    RenderedView const one = RayCaster(alone).render(T);
+    auto const seen_pixels =
+        std::count(all.thing.begin(), all.thing.end(), static_cast<std::int32_t>(table));
+    auto const pixels = std::count(one.thing.begin(), one.thing.end(), 0);
+    EXPECT_NEAR(seen(scene, i, "table"),
+                static_cast<double>(seen_pixels) / static_cast<double>(pixels), 0.02);
+  }
+}
+
+}  // namespace
+}  // namespace credo::test
