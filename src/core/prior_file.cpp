@@ -14,7 +14,7 @@ Field deviations(std::string name, std::vector<double>& values, Range range, std
                  std::string text) {
   NumbersTarget target{&values, 3, 3};
   target.one_for_all = true;
-  return {std::move(name), std::move(target), range, std::move(unit), std::move(text)};
+  return {std::move(name), target, range, std::move(unit), std::move(text)};
 }
 
 Eigen::Quaterniond orientation_of(PriorEntry const& entry, std::string const& who) {
@@ -28,7 +28,7 @@ Eigen::Quaterniond orientation_of(PriorEntry const& entry, std::string const& wh
     return Eigen::Quaterniond::Identity();
   }
   std::vector<double> const& q = entry.orientation_xyzw;
-  Eigen::Quaterniond const rotation(q[3], q[0], q[1], q[2]);
+  Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
   if (std::abs(rotation.norm() - 1.0) > 1e-2) {
     throw InputError(who + ": orientation_xyzw must be of unit length");
   }

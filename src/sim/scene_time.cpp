@@ -17,7 +17,7 @@ bool starts_present(Scene const& scene, SceneThing const& thing) {
 
 /// What an event leaves of a thing: `own` as Scene::things has it, `before` as it stood.
 std::optional<SceneThing> after(SceneEvent const& event, SceneThing const& own,
-                                std::optional<SceneThing> before) {
+                                std::optional<SceneThing> const& before) {
   if (event.what == SceneChange::kRemoved) {
     return std::nullopt;
   }

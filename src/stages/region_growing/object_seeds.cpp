@@ -20,8 +20,8 @@ void mark_row(OrganizedCloud const& cloud, int v, Eigen::Matrix3f const& R,
   float const r00 = R(0, 0), r01 = R(0, 1), r02 = R(0, 2), t0 = t.x();
   float const r10 = R(1, 0), r11 = R(1, 1), r12 = R(1, 2), t1 = t.y();
   float const r20 = R(2, 0), r21 = R(2, 1), r22 = R(2, 2), t2 = t.z();
-  Eigen::Vector3f const low = box.min();
-  Eigen::Vector3f const high = box.max();
+  Eigen::Vector3f const& low = box.min();
+  Eigen::Vector3f const& high = box.max();
   float const low0 = low.x(), low1 = low.y(), low2 = low.z();
   float const high0 = high.x(), high1 = high.y(), high2 = high.z();
   int const width = cloud.width();
