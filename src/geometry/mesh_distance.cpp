@@ -40,6 +40,16 @@ void check(TriangleMesh const& mesh) {
   }
 }
 
+// A little more than a distance, because the tree's boxes and the point are in floats.
+constexpr double kSlack = 1.0 + 1e-4;
+constexpr double kSlack_m = 1e-5;
+
+void check_finite(Eigen::Vector3d const& point) {
+  if (!point.allFinite()) {
+    throw std::logic_error("MeshDistance: the point is not finite");
+  }
+}
+
 /// The nearest triangle so far.
 struct Nearest {
   double distance2 = std::numeric_limits<double>::infinity();
@@ -54,6 +64,8 @@ struct MeshDistance::Tree {
 
   void offer(std::size_t triangle, Eigen::Vector3d const& point, Nearest& nearest) const;
   [[nodiscard]] Nearest nearest_to(Eigen::Vector3d const& point) const;
+  [[nodiscard]] bool has_face_near(Eigen::Vector3d const& point, double radius_m,
+                                   DirectionCone const& cone) const;
   /// Points outward wherever the point is nearest to that part of that triangle.
   [[nodiscard]] Eigen::Vector3d const& pseudonormal(Nearest const& nearest) const;
 
@@ -150,9 +162,6 @@ Nearest MeshDistance::Tree::nearest_to(Eigen::Vector3d const& point) const {
     Eigen::Vector3d point;
     Nearest nearest;
   } search{this, point, {}};
-  // A little more than the distance itself, because the tree's boxes and the point are in floats.
-  static constexpr double kSlack = 1.0 + 1e-4;
-  static constexpr double kSlack_m = 1e-5;
   auto const visit = [](RTCPointQueryFunctionArguments* arguments) {
     auto& found = *static_cast<Search*>(arguments->userPtr);
     found.tree->offer(arguments->primID, found.point, found.nearest);
@@ -169,6 +178,38 @@ Nearest MeshDistance::Tree::nearest_to(Eigen::Vector3d const& point) const {
   rtcInitPointQueryContext(&context);
   rtcPointQuery(scene.get(), &query, &context, visit, &search);
   return search.nearest;
+}
+
+bool MeshDistance::Tree::has_face_near(Eigen::Vector3d const& point, double radius_m,
+                                       DirectionCone const& cone) const {
+  struct Search {
+    Tree const* tree;
+    Eigen::Vector3d point;
+    double radius_m;
+    DirectionCone cone;
+    bool found;
+  } search{this, point, radius_m, cone, false};
+  auto const visit = [](RTCPointQueryFunctionArguments* arguments) {
+    auto& asked = *static_cast<Search*>(arguments->userPtr);
+    std::size_t const t = arguments->primID;
+    Eigen::Vector3d const& normal = asked.tree->face_normals[t];
+    if (!asked.cone.holds(normal) && (asked.tree->closed || !asked.cone.holds(-normal))) {
+      return false;
+    }
+    Eigen::Vector3d const nearest = nearest_on_triangle(asked.tree->corners[t], asked.point).point;
+    asked.found =
+        asked.found || (asked.point - nearest).squaredNorm() <= asked.radius_m * asked.radius_m;
+    if (asked.found) {
+      arguments->query->radius = 0.0F;
+    }
+    return asked.found;
+  };
+  Eigen::Vector3f const p = point.cast<float>();
+  RTCPointQuery query{p.x(), p.y(), p.z(), 0.0F, static_cast<float>(kSlack * radius_m + kSlack_m)};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene.get(), &query, &context, visit, &search);
+  return search.found;
 }
 
 Eigen::Vector3d const& MeshDistance::Tree::pseudonormal(Nearest const& nearest) const {
@@ -206,14 +247,18 @@ bool MeshDistance::closed() const {
 }
 
 SurfaceDistance MeshDistance::operator()(Eigen::Vector3d const& point_model) const {
-  if (!point_model.allFinite()) {
-    throw std::logic_error("MeshDistance: the point is not finite");
-  }
+  check_finite(point_model);
   Nearest const nearest = tree_->nearest_to(point_model);
   Eigen::Vector3d const offset = point_model - nearest.on_triangle.point;
   bool const inside = tree_->closed && tree_->pseudonormal(nearest).dot(offset) < 0.0;
   double const distance = std::sqrt(nearest.distance2);
   return {inside ? -distance : distance, tree_->face_normals[nearest.triangle]};
+}
+
+bool MeshDistance::has_face_near(Eigen::Vector3d const& point_model, double radius_m,
+                                 DirectionCone const& cone) const {
+  check_finite(point_model);
+  return tree_->has_face_near(point_model, radius_m, cone);
 }
 
 }  // namespace credo

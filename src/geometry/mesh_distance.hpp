@@ -31,6 +31,12 @@ public:
   /// std::logic_error for a point that is not finite.
   [[nodiscard]] SurfaceDistance operator()(Eigen::Vector3d const& point_model) const;
 
+  /// Whether a triangle within `radius_m` of the point has its normal in the cone; of an open mesh,
+  /// which may be seen from its back, its normal or the reverse. Throws std::logic_error for a
+  /// point that is not finite.
+  [[nodiscard]] bool has_face_near(Eigen::Vector3d const& point_model, double radius_m,
+                                   DirectionCone const& cone) const;
+
 private:
   struct Tree;
   std::unique_ptr<Tree> tree_;

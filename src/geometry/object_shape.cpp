@@ -1,5 +1,6 @@
 #include "geometry/object_shape.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "geometry/solid.hpp"
@@ -39,6 +40,16 @@ SurfaceDistance ObjectShape::distance_to(Eigen::Vector3d const& point_model) con
     }
   }
   return least;
+}
+
+bool ObjectShape::has_face_near(Eigen::Vector3d const& point_model, double radius_m,
+                                DirectionCone const& cone) const {
+  if (auto const* mesh = std::get_if<MeshDistance>(&shape_)) {
+    return mesh->has_face_near(point_model, radius_m, cone);
+  }
+  return std::ranges::any_of(std::get<std::vector<Solid>>(shape_), [&](Solid const& solid) {
+    return credo::has_face_near(solid, point_model, radius_m, cone);
+  });
 }
 
 ObjectShapes shapes_of(ObjectModels const& models) {

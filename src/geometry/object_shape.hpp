@@ -25,6 +25,11 @@ public:
   /// Of solids, the least of their distances: exact outside and on the surface of their union, and
   /// negative inside it.
   [[nodiscard]] SurfaceDistance distance_to(Eigen::Vector3d const& point_model) const;
+  /// Whether a face within `radius_m` of the point has its normal in the cone: at a crease that is
+  /// more than the nearest one. Of solids each by itself, also where it lies within another; an
+  /// open mesh may be seen from its back.
+  [[nodiscard]] bool has_face_near(Eigen::Vector3d const& point_model, double radius_m,
+                                   DirectionCone const& cone) const;
 
 private:
   std::variant<std::vector<Solid>, MeshDistance> shape_;

@@ -52,10 +52,52 @@ SurfaceDistance distance_from(SphereSolid const& sphere, Eigen::Vector3d const& 
           from_centre > 0.0 ? Eigen::Vector3d(offset / from_centre) : Eigen::Vector3d::UnitZ()};
 }
 
+bool has_face(BoxSolid const& box, Eigen::Vector3d const& point, double radius_m,
+              DirectionCone const& cone) {
+  Eigen::Vector3d const inside = point.cwiseMax(box.low_m).cwiseMin(box.high_m);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    for (double const sign : {-1.0, 1.0}) {
+      Eigen::Vector3d on_face = inside;
+      on_face[axis] = (sign < 0.0 ? box.low_m : box.high_m)[axis];
+      if (sign * cone.axis[axis] > cone.min_cosine &&
+          (point - on_face).squaredNorm() <= radius_m * radius_m) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool has_face(CylinderSolid const& cylinder, Eigen::Vector3d const& point, double radius_m,
+              DirectionCone const& cone) {
+  double const from_axis = std::hypot(point.x(), point.y());
+  double const beside = std::max(from_axis - cylinder.radius_m, 0.0);
+  for (double const end : {0.0, cylinder.height_m}) {
+    if (std::hypot(beside, point.z() - end) <= radius_m &&
+        cone.holds({0.0, 0.0, end > 0.0 ? 1.0 : -1.0})) {
+      return true;
+    }
+  }
+  double const beyond = point.z() - std::clamp(point.z(), 0.0, cylinder.height_m);
+  return from_axis > 0.0 && std::hypot(from_axis - cylinder.radius_m, beyond) <= radius_m &&
+         cone.holds({point.x() / from_axis, point.y() / from_axis, 0.0});
+}
+
+bool has_face(SphereSolid const& sphere, Eigen::Vector3d const& point, double radius_m,
+              DirectionCone const& cone) {
+  SurfaceDistance const surface = distance_from(sphere, point);
+  return std::abs(surface.distance_m) <= radius_m && cone.holds(surface.normal);
+}
+
 }  // namespace
 
 SurfaceDistance distance_to(Solid const& solid, Eigen::Vector3d const& point) {
   return std::visit([&](auto const& body) { return distance_from(body, point); }, solid);
+}
+
+bool has_face_near(Solid const& solid, Eigen::Vector3d const& point, double radius_m,
+                   DirectionCone const& cone) {
+  return std::visit([&](auto const& body) { return has_face(body, point, radius_m, cone); }, solid);
 }
 
 }  // namespace credo

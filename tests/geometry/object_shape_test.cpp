@@ -1,8 +1,9 @@
 #include "geometry/object_shape.hpp"
 
 #include <gtest/gtest.h>
-#include <Eigen/Geometry>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -115,6 +116,67 @@ TEST(MeshDistance, EqualsTryingEveryTriangle) {
 }
 
 // Nearest to an edge or a corner, where the normal of one face alone would tell the wrong side.
+// A box's faces are its mesh's triangles; a mesh is asked triangle by triangle.
+TEST(FacesNear, AreThoseOfTryingEveryTriangle) {
+  std::mt19937 generator(11);
+  BoxSolid const box{{-0.1, -0.2, 0}, {0.1, 0.2, 0.3}};
+  for (TriangleMesh const& mesh : {mesh_of(box), wavy_ring(40, 20)}) {
+    bool const is_box = mesh.triangles.size() == 12;
+    MeshDistance const distance(mesh);
+    int found = 0;
+    for (int i = 0; i < 500; ++i) {
+      Vector3d const p = random_point(generator, is_box ? 0.3 : 1.2);
+      DirectionCone const cone{random_point(generator, 1.0).normalized(), 0.3};
+      double const radius_m = is_box ? 0.15 : 0.4;
+      bool expected = false;
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        std::array<Vector3d, 3> corners;
+        std::ranges::transform(mesh.triangles[t], corners.begin(), [&](std::uint32_t vertex) {
+          return mesh.vertices[vertex].cast<double>();
+        });
+        expected = expected || (cone.holds(area_vector(mesh, t).normalized()) &&
+                                (p - nearest_on_triangle(corners, p).point).norm() <= radius_m);
+      }
+      found += expected ? 1 : 0;
+      EXPECT_EQ(distance.has_face_near(p, radius_m, cone), expected);
+      if (is_box) {
+        EXPECT_EQ(has_face_near(Solid(box), p, radius_m, cone), expected);
+      }
+    }
+    EXPECT_GT(found, 20);
+    EXPECT_LT(found, 480);
+  }
+}
+
+TEST(FacesNear, OfRoundSolids) {
+  Solid const can = CylinderSolid{0.1, 0.3};
+  DirectionCone const up{Vector3d::UnitZ(), 0.9};
+  DirectionCone const down{-Vector3d::UnitZ(), 0.9};
+  DirectionCone const aside{Vector3d::UnitX(), 0.9};
+  Vector3d const by_the_rim(0.1, 0, 0.29);
+  EXPECT_TRUE(has_face_near(can, by_the_rim, 0.02, up));
+  EXPECT_TRUE(has_face_near(can, by_the_rim, 0.02, aside));
+  EXPECT_FALSE(has_face_near(can, by_the_rim, 0.005, up));
+  EXPECT_FALSE(has_face_near(can, by_the_rim, 0.02, down));
+  EXPECT_TRUE(has_face_near(can, {0.1, 0, 0.01}, 0.02, down));
+  EXPECT_FALSE(has_face_near(can, {-0.1, 0, 0.15}, 0.02, aside)) << "the far side faces away";
+  Solid const ball = SphereSolid{0.1};
+  EXPECT_TRUE(has_face_near(ball, {0.11, 0, 0.1}, 0.02, aside));
+  EXPECT_FALSE(has_face_near(ball, {0.11, 0, 0.1}, 0.005, aside));
+  EXPECT_FALSE(has_face_near(ball, {0.11, 0, 0.1}, 0.02, up));
+}
+
+TEST(FacesNear, AnOpenMeshMayBeSeenFromItsBack) {
+  TriangleMesh mesh = mesh_of(BoxSolid{{-1, -1, 0}, {1, 1, 1}});
+  DirectionCone const down{-Vector3d::UnitZ(), 0.9};
+  EXPECT_FALSE(MeshDistance(mesh).has_face_near({0, 0, 1}, 0.1, down));
+  std::erase_if(mesh.triangles, [&](auto const& corners) {
+    return std::ranges::all_of(
+        corners, [&](std::uint32_t vertex) { return mesh.vertices[vertex].z() == 0.0F; });
+  });
+  EXPECT_TRUE(MeshDistance(mesh).has_face_near({0, 0, 1}, 0.1, down));
+}
+
 TEST(MeshDistance, TellsTheSideBeforeSharpEdges) {
   TriangleMesh const mesh = mesh_of(BoxSolid{{-1, -1, 0}, {1, 1, 0.01}});
   MeshDistance const distance(mesh);

@@ -51,9 +51,11 @@ bool is_near(Placed const& object, Eigen::Vector3d const& p_model, Eigen::Vector
   if (!normal.allFinite()) {
     return false;
   }
-  double const cosine =
-      surface.normal.dot(object.T_model_camera.rotation() * normal.cast<double>());
-  return (object.shape.closed() ? cosine : std::abs(cosine)) > std::cos(config.max_model_angle_rad);
+  Eigen::Vector3d const n = object.T_model_camera.rotation() * normal.cast<double>();
+  double const min_cosine = std::cos(config.max_model_angle_rad);
+  return surface.normal.dot(n) > min_cosine ||
+         (!object.shape.closed() && -surface.normal.dot(n) > min_cosine) ||
+         object.shape.has_face_near(p_model, config.crease_radius_m, {n, min_cosine});
 }
 
 bool is_seed(Placed const& object, Eigen::Vector3d const& p_model, Eigen::Vector3f const& normal,

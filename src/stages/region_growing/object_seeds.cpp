@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -36,13 +37,15 @@ void mark_row(OrganizedCloud const& cloud, int v, Eigen::Matrix3f const& R,
   }
 }
 
-/// May a point with this normal (camera frame) and the model's nearest surface be of one object?
-bool faces_alike(Eigen::Vector3f const& normal_camera, SurfaceDistance const& surface,
-                 PlacedShape const& placed, double min_cosine) {
-  double const cosine =
-      surface.normal.dot(placed.T_model_camera.rotation() * normal_camera.cast<double>());
+/// May a point with this normal (camera frame) be of the model's surface, which is near?
+bool faces_alike(Eigen::Vector3d const& point_model, Eigen::Vector3f const& normal_camera,
+                 SurfaceDistance const& surface, PlacedShape const& placed,
+                 RegionGrowingConfig const& config) {
+  DirectionCone const cone{placed.T_model_camera.rotation() * normal_camera.cast<double>(),
+                           std::cos(config.max_model_angle_rad)};
   // A mesh with holes may be seen from its back.
-  return (placed.shape->closed() ? cosine : std::abs(cosine)) > min_cosine;
+  return cone.holds(surface.normal) || (!placed.shape->closed() && cone.holds(-surface.normal)) ||
+         placed.shape->has_face_near(point_model, config.crease_radius_m, cone);
 }
 
 }  // namespace
@@ -80,7 +83,7 @@ ObjectPixels object_pixels(std::vector<std::size_t> const& pixels, OrganizedClou
   double const seed_reach_m =
       placed.shape->closed() ? config.seed_distance_m : config.open_mesh_distance_m;
   bool const any_normal = config.max_model_angle_rad >= std::numbers::pi;
-  double const min_cosine = std::cos(config.max_model_angle_rad);
+  double const reach_m = std::max(seed_reach_m, config.max_distance_m);
   constexpr std::uint8_t kAllowed = 1;
   constexpr std::uint8_t kSeed = 2;
   std::vector<std::uint8_t> roles(pixels.size(), 0);
@@ -93,14 +96,13 @@ ObjectPixels object_pixels(std::vector<std::size_t> const& pixels, OrganizedClou
           if (!any_normal && !has_normal) {
             continue;
           }
-          SurfaceDistance const surface =
-              placed.shape->distance_to(placed.T_model_camera * cloud.at(i).cast<double>());
-          if (any_normal || faces_alike(normals.at(i), surface, placed, min_cosine)) {
+          Eigen::Vector3d const point = placed.T_model_camera * cloud.at(i).cast<double>();
+          SurfaceDistance const surface = placed.shape->distance_to(point);
+          if (surface.distance_m <= reach_m &&
+              (any_normal || faces_alike(point, normals.at(i), surface, placed, config))) {
             bool const seed = surface.distance_m <= seed_reach_m;
-            bool const allowed =
-                has_normal && (seed || surface.distance_m <= config.max_distance_m);
-            roles[k] = static_cast<std::uint8_t>((allowed ? kAllowed : 0U) |
-                                                 (surface.distance_m <= seed_reach_m ? kSeed : 0U));
+            roles[k] =
+                static_cast<std::uint8_t>((has_normal ? kAllowed : 0U) | (seed ? kSeed : 0U));
           }
         }
       });

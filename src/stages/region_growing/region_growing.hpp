@@ -23,6 +23,9 @@ struct RegionGrowingConfig {
   /// that a table is not taken for the box on it: less than a right angle, but not much, because
   /// normals of small things are blurred; pi or more switches it off (T).
   double max_model_angle_rad = 1.2;
+  /// ... or of that of another face within this distance: at a crease a pixel's normal is blended
+  /// from both sides, and which face is nearest tells nothing.
+  double crease_radius_m = 0.005;
   /// Points within this distance outside the model seed its region like those inside (T: 0): a pose
   /// that is off by a little must not lose a whole face.
   double seed_distance_m = 0.01;
