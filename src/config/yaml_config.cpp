@@ -215,7 +215,7 @@ std::vector<std::string> load_file(FieldList const& fields, std::filesystem::pat
     }
     return std::move(loader.errors);
   } catch (YAML::BadFile const&) {
-    return {path.string() + ": config file cannot be read"};
+    return {path.string() + ": cannot be read"};
   } catch (YAML::Exception const& error) {
     return {path.string() + ":" + std::to_string(error.mark.line + 1) + ":" +
             std::to_string(error.mark.column + 1) + ": not YAML: " + error.msg};

@@ -129,7 +129,7 @@ TEST_F(ConfigErrors, AreAllToldAtOnceInOrderOfFilesThenOverrides) {
 
 TEST_F(ConfigErrors, MissingFilesAndFoldersAreNamed) {
   std::string const missing = (folder_ / "none.yaml").string();
-  EXPECT_EQ(load({missing}, {}), missing + ": config file cannot be read");
+  EXPECT_EQ(load({missing}, {}), missing + ": cannot be read");
   EXPECT_EQ(load({folder_.path()}, {}),
             folder_.path().string() + ": is a folder, not a config file");
 }

@@ -197,7 +197,7 @@ TEST_F(BadRecordings, AConfigWithEveryKindOfFault) {
 
 TEST_F(BadRecordings, AConfigThatIsNotThere) {
   EXPECT_EQ(error({"--config", (folder_ / "none.yaml").string()}),
-            "credo: /none.yaml: config file cannot be read\n");
+            "credo: /none.yaml: cannot be read\n");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/yaml_config.hpp"
+#include "end_to_end/known_scene.hpp"
 #include "end_to_end/program.hpp"
 #include "graph/read_ahead.hpp"
 #include "graph/run_once.hpp"
@@ -40,13 +41,22 @@ std::vector<std::string> specified_lines(
 }
 
 void expect_same_at_any_thread_count(std::string const& source, int frames,
-                                     std::vector<std::string> const& expected) {
+                                     std::vector<std::string> const& expected,
+                                     std::vector<std::string> const& more = {}) {
   ASSERT_EQ(expected.size(), static_cast<std::size_t>(frames));
   for (int const threads : {1, 2, 4}) {
     test::TempFolder const folder;
-    test::Ended const ended =
-        test::credo({"run", "--source", source, "--frames", std::to_string(frames), "--out",
-                     folder.path().string(), "--set", "graph.threads=" + std::to_string(threads)});
+    std::vector<std::string> arguments = {"run",
+                                          "--source",
+                                          source,
+                                          "--frames",
+                                          std::to_string(frames),
+                                          "--out",
+                                          folder.path().string(),
+                                          "--set",
+                                          "graph.threads=" + std::to_string(threads)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    test::Ended const ended = test::credo(arguments);
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_EQ(test::read_lines(folder / "belief.jsonl"), expected) << threads << " threads";
   }
@@ -60,6 +70,25 @@ TEST(Determinism, SimulatedRooms) {
     int const frames = std::min(6, static_cast<int>(source->frame_count()));
     expect_same_at_any_thread_count(std::string("sim:") + name, frames,
                                     specified_lines(std::move(source), frames, {}));
+  }
+}
+
+TEST(Determinism, KnownObjectsAndANoisyDetector) {
+  for (char const* const name : {"box-on-table", "bottle-moves"}) {
+    test::KnownScene const known = test::known_scene(name);
+    SimDetectorConfig detector;
+    detector.miss_probability = 0.2;
+    detector.false_alarms_per_frame = 1.0;
+    detector.seed = 7;
+    auto source = std::make_unique<SimSource>(known.scene, PoseConfig{});
+    int const frames = static_cast<int>(source->frame_count());
+    expect_same_at_any_thread_count(
+        std::string("sim:") + name, frames,
+        specified_lines(std::move(source), frames, {}, known.prior,
+                        test::known_objects(known, detector)),
+        {"--prior", std::string(CREDO_SOURCE_DIR) + "/scenes/priors/" + name + ".yaml", "--set",
+         "detector.kind=sim", "--set", "detector.sim.miss_probability=0.2", "--set",
+         "detector.sim.false_alarms_per_frame=1", "--set", "detector.sim.seed=7"});
   }
 }
 

@@ -2,13 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "end_to_end/contract.hpp"
+#include "end_to_end/known_scene.hpp"
 #include "end_to_end/program.hpp"
 
 namespace credo::test {
@@ -103,6 +106,45 @@ TEST_F(BottleMoves, WithOurs) {
   ASSERT_EQ(after.size(), 1U);
   EXPECT_EQ(after[0].first_frame, 2U);
   EXPECT_THAT(after[0].probabilities, ElementsAre("0.990", "0.99005", "0.99005", "0.99005"));
+}
+
+/// The last frame in which it holds, -1 for none.
+template <typename Holds>
+int last_frame(std::vector<BeliefPtr> const& beliefs, Holds const& holds) {
+  auto const last = std::find_if(beliefs.rbegin(), beliefs.rend(), holds);
+  return static_cast<int>(beliefs.rend() - last) - 1;
+}
+
+// 30 Hz from one place. The thesis' numbers, frame by frame, would believe in both for as long as
+// they stood there.
+TEST(Histories, AMinuteOfSightIsNotBelievedForAnotherMinute) {
+  constexpr int kGone = 60 * 30;
+  constexpr int kSecond = 30;
+  KnownScene known = known_scene("box-on-table");
+  SceneThing parcel;
+  parcel.name = "parcel";
+  parcel.size_m = {0.4, 0.5, 0.5};
+  parcel.position_m = {1.8, -1.2, 0};
+  known.scene.things.push_back(parcel);
+  known.scene.camera = smaller(known.scene.camera, 8);
+  known.scene.camera.frames_per_s = 30;
+  known.scene.camera.path = {{0, {0, 0, 1.4}, {2, 0, 0.6}}, {120, {0, 0, 1.4}, {2, 0, 0.6}}};
+  for (char const* const thing : {"box", "parcel"}) {
+    known.scene.events.push_back({59.99, thing, SceneChange::kRemoved, {}, {}});
+  }
+  std::vector<BeliefPtr> const beliefs = run_scene(known, exact_detector());
+  ASSERT_EQ(beliefs.size(), 3601U);
+  int const box = last_frame(beliefs, [](BeliefPtr const& belief) {
+    return probability_of(belief->objects[1].log_odds) > 0.15;
+  });
+  int const stuff =
+      last_frame(beliefs, [](BeliefPtr const& belief) { return !belief->stuff.empty(); });
+  EXPECT_GE(box, kGone) << "believed until it went";
+  EXPECT_LT(box, kGone + 2 * kSecond);
+  EXPECT_GE(stuff, kGone);
+  EXPECT_LT(stuff, kGone + 2 * kSecond);
+  EXPECT_GT(probability_of(beliefs[kGone - 1]->objects[1].log_odds), 0.98);
+  EXPECT_GT(probability_of(beliefs.back()->objects[0].log_odds), 0.98) << "the table is there yet";
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/prior_file.hpp"
 #include "graph/read_ahead.hpp"
 #include "graph/run_once.hpp"
+#include "graph/run_sink.hpp"
 #include "sim/camera_path.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/scene_time.hpp"
@@ -62,20 +63,29 @@ std::shared_ptr<KnownObjects const> known_objects(KnownScene const& known,
   return objects;
 }
 
-std::vector<FrameResult> run_scene(KnownScene const& known, SimDetectorConfig const& detector,
-                                   PipelineConfig const& config) {
+std::vector<BeliefPtr> run_scene(KnownScene const& known, SimDetectorConfig const& detector,
+                                 PipelineConfig const& config) {
   ReadAhead source(std::make_unique<SimSource>(known.scene, PoseConfig{}));
   WorldLevel const level = find_level_ahead(source, config.pose);
-  std::vector<FrameResult> results;
+  std::vector<BeliefPtr> beliefs;
   RunSink const sink = {[&](FrameResult const& result) -> Delivery {
-                          return [&results, result] { results.push_back(result); };
+                          return [&beliefs, belief = result.belief] { beliefs.push_back(belief); };
                         },
                         [](FrameFailure const& failure) {
                           throw std::runtime_error("a frame failed: " + failure.message);
                         }};
   run_once(source, make_stages(config, level, {}, known_objects(known, detector)), sink,
            config.graph, std::make_shared<BeliefState const>(known.prior), {});
-  return results;
+  return beliefs;
+}
+
+SceneCamera smaller(SceneCamera camera, int factor) {
+  camera.width_px /= factor;
+  camera.height_px /= factor;
+  for (double* value : {&camera.fx_px, &camera.fy_px, &camera.cx_px, &camera.cy_px}) {
+    *value /= factor;
+  }
+  return camera;
 }
 
 SimDetectorConfig exact_detector() {

@@ -9,7 +9,6 @@
 #include "core/detector_config.hpp"
 #include "core/object_model.hpp"
 #include "graph/pipeline_config.hpp"
-#include "graph/run_sink.hpp"
 #include "graph/stages.hpp"
 #include "sim/scene.hpp"
 
@@ -33,10 +32,12 @@ KnownScene known_scene(std::string const& name);
 std::shared_ptr<KnownObjects const> known_objects(KnownScene const& known,
                                                   SimDetectorConfig const& detector);
 
-/// What a run of the scene's frames gives, one after the other (run_once).
-std::vector<FrameResult> run_scene(KnownScene const& known, SimDetectorConfig const& detector,
-                                   PipelineConfig const& config = {});
+/// The beliefs after each of the scene's frames, one after the other (run_once).
+std::vector<BeliefPtr> run_scene(KnownScene const& known, SimDetectorConfig const& detector,
+                                 PipelineConfig const& config = {});
 
+/// The same view in fewer pixels, 1 / factor each way.
+SceneCamera smaller(SceneCamera camera, int factor);
 /// A detector without an error.
 SimDetectorConfig exact_detector();
 

@@ -16,15 +16,10 @@ namespace {
 
 constexpr int kRuns = 200;
 
-/// An eighth of the pixels each way: these tests read poses, not labels.
+/// These tests read poses, not labels.
 KnownScene small_box_on_table() {
   KnownScene known = known_scene("box-on-table");
-  SceneCamera& camera = known.scene.camera;
-  camera.width_px /= 8;
-  camera.height_px /= 8;
-  for (double* value : {&camera.fx_px, &camera.fy_px, &camera.cx_px, &camera.cy_px}) {
-    *value /= 8.0;
-  }
+  known.scene.camera = smaller(known.scene.camera, 8);
   return known;
 }
 
@@ -66,10 +61,10 @@ std::vector<Look> looks_of_many_runs() {
     std::mt19937_64 random(static_cast<std::uint64_t>(run));
     draw_prior(object_of(known.prior, "box_1"), truth, random);
     detector.seed = run;
-    std::vector<FrameResult> const results = run_scene(known, detector);
-    looks.resize(results.size());
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      PoseDistribution const& pose = object_of(*results[i].belief, "box_1").pose_world;
+    std::vector<BeliefPtr> const beliefs = run_scene(known, detector);
+    looks.resize(beliefs.size());
+    for (std::size_t i = 0; i < beliefs.size(); ++i) {
+      PoseDistribution const& pose = object_of(*beliefs[i], "box_1").pose_world;
       Vector6d const error = boxminus(truth, pose.mean);
       looks[i].nees_sum += error.dot(pose.covariance.ldlt().solve(error));
       looks[i].squared_error_sum_m2 += error.head<3>().squaredNorm();
@@ -112,10 +107,10 @@ TEST(ObjectFilter, ACylindersYawStaysUncertainForEver) {
   for (int seed = 1; seed <= 5; ++seed) {
     SimDetectorConfig detector;
     detector.seed = seed;
-    std::vector<FrameResult> const results = run_scene(known, detector);
-    ASSERT_EQ(results.size(), 9U);
-    for (FrameResult const& result : results) {
-      ObjectBelief const& bottle = object_of(*result.belief, "box_1");
+    std::vector<BeliefPtr> const beliefs = run_scene(known, detector);
+    ASSERT_EQ(beliefs.size(), 9U);
+    for (BeliefPtr const& belief : beliefs) {
+      ObjectBelief const& bottle = object_of(*belief, "box_1");
       ASSERT_EQ(bottle.evidence, Evidence::kSeen);
       Eigen::Vector3d const axis = bottle.pose_world.mean.rotation() * Eigen::Vector3d::UnitZ();
       Matrix6d const information = bottle.pose_world.covariance.inverse();

@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadUsage{"DumpWithoutOut", sim_with({"--dump", "labels"}),
                  "--dump has nowhere to write: add --out DIR"},
         BadUsage{"Prior", sim_with({"--prior", "/nowhere/room.yaml"}),
-                 "/nowhere/room.yaml: config file cannot be read"},
+                 "/nowhere/room.yaml: cannot be read"},
         BadUsage{"UnknownSource",
                  {"run", "--source", "kitchen"},
                  "--source kitchen: names no source; write dataset:DIR or sim:NAME-or-FILE"},

@@ -11,6 +11,7 @@
 #include "io/mesh_file.hpp"
 #include "stages/normals/normals.hpp"
 #include "stages/region_growing/region_growing.hpp"
+#include "support/linemod_cat.hpp"
 #include "support/literal_region_growing.hpp"
 #include "support/recordings.hpp"
 
@@ -18,15 +19,6 @@ namespace credo::test {
 namespace {
 
 using Eigen::Vector3d;
-
-/// The cat's true pose in the LINEMOD frame, model to camera, as the dataset gives it.
-Se3 true_pose() {
-  Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
-  T.topLeftCorner<3, 3>() << 0.09506610, 0.98330897, -0.15512900, 0.74159598, -0.17391300,
-      -0.64791101, -0.66407597, -0.05344890, -0.74575198;
-  T.topRightCorner<3, 1>() << 0.07162781422, -0.15820064191, 1.05077777823;
-  return Se3::from_matrix(T);
-}
 
 struct CatFrame {
   FramePtr frame;
@@ -46,7 +38,7 @@ CatFrame cat_frame() {
   cat.segmentation = unassigned_segmentation(*cat.frame, Se3(), kPriorFrame);
   ObjectObservation seen;
   seen.type = "cat";
-  seen.pose_world.mean = true_pose();
+  seen.pose_world.mean = true_cat_pose();
   cat.segmentation.objects = {seen};
   return cat;
 }
@@ -88,7 +80,7 @@ TEST(RegionRecordings, TheCatIsLabelledWhereItIs) {
   Segmentation const result = grow_objects(*cat.frame, cat.normals, cat.segmentation,
                                            shapes_of(cat.models), RegionGrowingConfig{});
   Grid<float> const drawn =
-      drawn_depth(std::get<TriangleMesh>(cat.models.at("cat").shape), true_pose(),
+      drawn_depth(std::get<TriangleMesh>(cat.models.at("cat").shape), true_cat_pose(),
                   cat.frame->intrinsics, result.labels.width(), result.labels.height());
   std::size_t truth = 0;
   std::size_t labelled = 0;
