@@ -13,7 +13,8 @@ ObjectShape::ObjectShape(ObjectModel const& model) {
       throw std::logic_error("ObjectShape: model " + model.name + " is made of nothing");
     }
     for (Solid const& solid : *solids) {
-      bounds_.extend(bounds_of(solid));
+      part_bounds_.push_back(bounds_of(solid));
+      bounds_.extend(part_bounds_.back());
     }
     shape_ = *solids;
     return;
@@ -23,6 +24,7 @@ ObjectShape::ObjectShape(ObjectModel const& model) {
   for (Eigen::Vector3f const& vertex : mesh.vertices) {
     bounds_.extend(vertex.cast<double>());
   }
+  part_bounds_ = {bounds_};
   closed_ = distance.closed();
   shape_ = std::move(distance);
 }

@@ -22,6 +22,8 @@ public:
   /// Whether it has an inside: solids always, a mesh where it is closed.
   [[nodiscard]] bool closed() const { return closed_; }
   [[nodiscard]] Eigen::AlignedBox3d const& bounds() const { return bounds_; }
+  /// Boxes that together hold it: one for each solid, or one for the mesh. Never empty.
+  [[nodiscard]] std::vector<Eigen::AlignedBox3d> const& part_bounds() const { return part_bounds_; }
   /// Of solids, the least of their distances: exact outside and on the surface of their union, and
   /// negative inside it.
   [[nodiscard]] SurfaceDistance distance_to(Eigen::Vector3d const& point_model) const;
@@ -34,6 +36,7 @@ public:
 private:
   std::variant<std::vector<Solid>, MeshDistance> shape_;
   Eigen::AlignedBox3d bounds_;
+  std::vector<Eigen::AlignedBox3d> part_bounds_;
   bool closed_ = true;
 };
 

@@ -6,43 +6,45 @@
 namespace credo {
 namespace {
 
-/// To a rectangle (or box) around the origin, told by how far the point is beyond each pair of
-/// sides: negative between them. Outside, the nearest point may lie on an edge or a corner.
-template <int kSides>
-SurfaceDistance distance_beyond(Eigen::Matrix<double, kSides, 1> const& beyond,
-                                Eigen::Matrix<double, 3, kSides> const& outward) {
-  Eigen::Matrix<double, kSides, 1> const outside = beyond.cwiseMax(0.0);
-  double const distance = outside.norm();
-  if (distance > 0.0) {
-    return {distance, outward * outside / distance};
-  }
-  Eigen::Index nearest = 0;
-  double const depth = beyond.maxCoeff(&nearest);
-  return {depth, outward.col(nearest)};
-}
-
 SurfaceDistance distance_from(BoxSolid const& box, Eigen::Vector3d const& point) {
   Eigen::Vector3d const offset = point - 0.5 * (box.low_m + box.high_m);
   Eigen::Vector3d const beyond = offset.cwiseAbs() - 0.5 * (box.high_m - box.low_m);
-  Eigen::Matrix3d outward = Eigen::Matrix3d::Zero();
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    outward(axis, axis) = std::copysign(1.0, offset[axis]);
+  Eigen::Vector3d const outside = beyond.cwiseMax(0.0);
+  double const distance2 = outside.squaredNorm();
+  if (distance2 > 0.0) {
+    double const distance = std::sqrt(distance2);
+    Eigen::Vector3d normal = outside / distance;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      normal[axis] = std::copysign(normal[axis], offset[axis]);
+    }
+    return {distance, normal};
   }
-  return distance_beyond<3>(beyond, outward);
+  Eigen::Index nearest = 0;
+  double const depth = beyond.maxCoeff(&nearest);
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  normal[nearest] = std::copysign(1.0, offset[nearest]);
+  return {depth, normal};
 }
 
 SurfaceDistance distance_from(CylinderSolid const& cylinder, Eigen::Vector3d const& point) {
   double const from_axis = std::hypot(point.x(), point.y());
   double const half = 0.5 * cylinder.height_m;
-  Eigen::Matrix<double, 3, 2> outward = Eigen::Matrix<double, 3, 2>::Zero();
-  if (from_axis > 0.0) {
-    outward.col(0) << point.x() / from_axis, point.y() / from_axis, 0.0;
-  } else {
-    outward.col(0) = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d const radial =
+      from_axis > 0.0 ? Eigen::Vector3d(point.x() / from_axis, point.y() / from_axis, 0.0)
+                      : Eigen::Vector3d::UnitX();
+  Eigen::Vector3d const axial(0.0, 0.0, std::copysign(1.0, point.z() - half));
+  // How far beyond the side and beyond the nearer end; negative within. Outside both, the nearest
+  // point lies on the rim.
+  double const beyond_side = from_axis - cylinder.radius_m;
+  double const beyond_end = std::abs(point.z() - half) - half;
+  double const side = std::max(beyond_side, 0.0);
+  double const end = std::max(beyond_end, 0.0);
+  double const distance = std::hypot(side, end);
+  if (distance > 0.0) {
+    return {distance, (side * radial + end * axial) / distance};
   }
-  outward(2, 1) = std::copysign(1.0, point.z() - half);
-  return distance_beyond<2>({from_axis - cylinder.radius_m, std::abs(point.z() - half) - half},
-                            outward);
+  return beyond_side > beyond_end ? SurfaceDistance{beyond_side, radial}
+                                  : SurfaceDistance{beyond_end, axial};
 }
 
 SurfaceDistance distance_from(SphereSolid const& sphere, Eigen::Vector3d const& point) {

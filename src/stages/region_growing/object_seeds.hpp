@@ -16,11 +16,6 @@ struct PlacedShape {
   Se3 T_model_camera;
 };
 
-/// The pixels whose points lie within the model's bounding box, `margin_m` larger on each side, in
-/// raster order.
-[[nodiscard]] std::vector<std::size_t> pixels_in_bounds(OrganizedCloud const& cloud,
-                                                        PlacedShape const& placed, double margin_m);
-
 /// The pixels that may be of an object, each list in raster order.
 struct ObjectPixels {
   /// Where its region may grow.
@@ -29,9 +24,7 @@ struct ObjectPixels {
   std::vector<std::size_t> seeds;
 };
 
-/// Of `pixels`, all with finite points.
-[[nodiscard]] ObjectPixels object_pixels(std::vector<std::size_t> const& pixels,
-                                         OrganizedCloud const& cloud, NormalMap const& normals,
+[[nodiscard]] ObjectPixels object_pixels(OrganizedCloud const& cloud, NormalMap const& normals,
                                          PlacedShape const& placed,
                                          RegionGrowingConfig const& config);
 

@@ -41,8 +41,7 @@ std::vector<Region> regions_of(OrganizedCloud const& cloud, NormalMap const& nor
     }
     PlacedShape const placed{&shape->second,
                              object.pose_world.mean.inverse() * segmentation.T_world_camera};
-    regions.push_back({i, object_pixels(pixels_in_bounds(cloud, placed, config.bounds_margin_m),
-                                        cloud, normals, placed, config)});
+    regions.push_back({i, object_pixels(cloud, normals, placed, config)});
   }
   return regions;
 }
