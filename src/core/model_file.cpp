@@ -103,7 +103,8 @@ Symmetry written_symmetry(SymmetryEntry const& entry, std::string const& where) 
     if (entry.axis.empty() || !(vector_of(entry.axis).norm() > 1e-9)) {
       refuse(where, "symmetry.axis must be a direction that is not 0, 0, 0");
     }
-    symmetry.axis = SymmetryAxis{vector_of(entry.axis).normalized(), vector_of(entry.point_m)};
+    symmetry.axis =
+        SymmetryAxis{vector_of(entry.axis).stableNormalized(), vector_of(entry.point_m)};
   } else if (entry.form == Form::kList) {
     for (std::size_t i = 0; i < entry.turns.size(); ++i) {
       if (entry.turns[i].rpy_deg.empty()) {
