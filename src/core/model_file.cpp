@@ -162,6 +162,9 @@ ObjectModel model_of(ModelFile const& file, std::optional<TriangleMesh> mesh,
   if (shapes_given(file) != 1) {
     refuse(where, "give one of primitive.box, primitive.cylinder, primitive.table and mesh");
   }
+  if (file.mesh.empty() && file.unit != LengthUnit::kMetre) {
+    refuse(where, "unit is that of a mesh's numbers; primitives are in metres");
+  }
   ObjectModel model;
   model.name = file.name;
   give_shape(file, std::move(mesh), where, model);
