@@ -260,8 +260,20 @@ std::string comment_of(Field const& field) {
   return comment;
 }
 
+/// Empty or 0 where that may not be written: the value was not given.
+bool is_absent(Field const& field) {
+  if (auto const* number = std::get_if<double*>(&field.target)) {
+    return **number == 0.0 && !check_range(field, 0.0).empty();
+  }
+  auto const* numbers = std::get_if<NumbersTarget>(&field.target);
+  return numbers != nullptr && numbers->values->size() < numbers->min_count;
+}
+
 void print_yaml(FieldList const& fields, std::string const& indent, std::string& out) {
   for (Field const& field : fields) {
+    if (is_absent(field)) {
+      continue;
+    }
     if (auto const* members = std::get_if<FieldList>(&field.target)) {
       out += indent + "# " + field.text + "\n" + indent + field.name + ":\n";
       print_yaml(*members, indent + "  ", out);

@@ -15,8 +15,9 @@ namespace credo {
 void load_config(FieldList const& fields, std::vector<std::filesystem::path> const& files,
                  std::vector<std::string> const& overrides);
 
-/// The current values as YAML, each with its text, unit and range as a comment. Loading it gives
-/// the same values, to the bit.
+/// The current values as YAML, each with its text, unit and range as a comment. What is not
+/// given (empty or 0 where that may not be written) is left out. Loading it gives the same values,
+/// to the bit.
 std::string config_yaml(FieldList const& fields);
 
 /// The same as Markdown: a heading and a table (key, value, unit, allowed values, text) for each

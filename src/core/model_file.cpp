@@ -103,7 +103,8 @@ Symmetry written_symmetry(SymmetryEntry const& entry, std::string const& where) 
     if (entry.axis.empty() || !(vector_of(entry.axis).norm() > 1e-9)) {
       refuse(where, "symmetry.axis must be a direction that is not 0, 0, 0");
     }
-    symmetry.axis = SymmetryAxis{vector_of(entry.axis).normalized(), vector_of(entry.point_m)};
+    symmetry.axis =
+        SymmetryAxis{vector_of(entry.axis).stableNormalized(), vector_of(entry.point_m)};
   } else if (entry.form == Form::kList) {
     for (std::size_t i = 0; i < entry.turns.size(); ++i) {
       if (entry.turns[i].rpy_deg.empty()) {
@@ -160,6 +161,9 @@ ObjectModel model_of(ModelFile const& file, std::optional<TriangleMesh> mesh,
   }
   if (shapes_given(file) != 1) {
     refuse(where, "give one of primitive.box, primitive.cylinder, primitive.table and mesh");
+  }
+  if (file.mesh.empty() && file.unit != LengthUnit::kMetre) {
+    refuse(where, "unit is that of a mesh's numbers; primitives are in metres");
   }
   ObjectModel model;
   model.name = file.name;

@@ -37,7 +37,7 @@ std::optional<View::Projection> View::project(Eigen::Vector3d const& p_world) co
   }
   double const zoom = perspective ? scale / p.z() : scale;
   double const x = 0.5 * panel.width + centre_px.x() + zoom * p.x();
-  double const y = 0.5 * panel.height + centre_px.y() + zoom * p.y();
+  double const y = 0.5 * panel.height + centre_px.y() + aspect * zoom * p.y();
   if (!(std::abs(x) < 1e6) || !(std::abs(y) < 1e6)) {
     return std::nullopt;
   }
@@ -55,7 +55,8 @@ View camera_view(Se3 const& T_world_camera, CameraIntrinsics const& intrinsics, 
   // Pixel centres are at whole numbers in the camera's image and at halves on a panel.
   Eigen::Vector2d const centre(shrink * (intrinsics.cx_px + 0.5) - 0.5 * panel.width,
                                shrink * (intrinsics.cy_px + 0.5) - 0.5 * panel.height);
-  return {panel, T_world_camera.inverse(), shrink * intrinsics.fx_px, true, centre};
+  double const aspect = intrinsics.fy_px / intrinsics.fx_px;
+  return {panel, T_world_camera.inverse(), shrink * intrinsics.fx_px, true, centre, aspect};
 }
 
 View oblique_view(Se3 const& T_world_camera, Panel const& panel) {

@@ -44,6 +44,8 @@ struct View {
   bool perspective = true;
   /// Where the optical axis meets the panel, from its middle [px].
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
+  /// Vertical scale over horizontal: not 1 where pixels are not square.
+  double aspect = 1.0;
 
   struct Projection {
     int x = 0;

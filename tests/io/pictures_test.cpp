@@ -8,40 +8,13 @@
 
 #include "io/beliefs.hpp"
 #include "io/canvas.hpp"
+#include "io/plain_pictures.hpp"
 
 namespace credo::test {
 namespace {
 
 constexpr Rgb kRed = {225, 40, 40};
 constexpr Rgb kPurple = {165, 80, 235};
-
-/// A level camera 1.5 m above the world's origin that looks along x.
-Se3 level_camera() {
-  Eigen::Matrix3d rotation;
-  rotation.col(0) = -Eigen::Vector3d::UnitY();
-  rotation.col(1) = -Eigen::Vector3d::UnitZ();
-  rotation.col(2) = Eigen::Vector3d::UnitX();
-  return {Eigen::Quaterniond(rotation), {0, 0, 1.5}};
-}
-
-/// All depth 2 m, no colour.
-Frame plain_frame(int width, int height) {
-  Frame frame;
-  frame.cloud_camera =
-      cloud_from_depth(Grid<float>(width, height, 2.0F), {100, 100, 0.5 * width, 0.5 * height});
-  return frame;
-}
-
-/// What the frame shows before any stage has labelled it.
-Segmentation plain_segmentation(Frame const& frame) {
-  return unassigned_segmentation(frame, level_camera(), kPriorFrame);
-}
-
-BeliefState plain_belief() {
-  BeliefState belief;
-  belief.T_world_camera = level_camera();
-  return belief;
-}
 
 StuffBelief stuff_of(std::uint32_t id, double log_odds, PointList points) {
   auto cluster = std::make_shared<StuffCluster>();
@@ -68,10 +41,6 @@ int saturation(Rgb color) {
   auto const [least, most] = std::minmax_element(color.begin(), color.end());
   return *most - *least;
 }
-
-// The panels of a picture of a 320x240 frame.
-constexpr Panel kOblique = {0, 124, 160, 120};
-constexpr Panel kMap = {164, 124, 160, 120};
 
 Rgb pixel_in(Grid<Rgb> const& picture, Panel const& panel, View::Projection const& at) {
   return picture[Pixel{panel.left + at.x, panel.top + at.y}];

@@ -1,0 +1,172 @@
+#include "graph/stages.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace credo {
+namespace {
+
+using Eigen::Vector3d;
+using testing::SizeIs;
+
+/// Remembers what it was asked, and finds the first thing asked for `aside_m` to the camera's right
+/// of where it is expected, if told so.
+class FakeDetector : public Detector {
+public:
+  explicit FakeDetector(std::vector<DetectionRequest>& asked) : asked_(asked) {}
+
+  std::vector<Detection> detect(Frame const&,
+                                std::vector<DetectionRequest> const& requests) override {
+    asked_.insert(asked_.end(), requests.begin(), requests.end());
+    if (std::isnan(aside_m)) {
+      return {};
+    }
+    PoseDistribution pose = requests.at(0).expected_camera;
+    pose.mean = Se3(pose.mean.rotation(), pose.mean.translation() + Vector3d(aside_m, 0, 0));
+    return {{requests[0].type, pose, 1.0, 1.0}};
+  }
+
+  double aside_m = kNaN;
+
+private:
+  std::vector<DetectionRequest>& asked_;
+};
+
+/// One box, turned, its deviations different along each axis.
+Prior prior_in(PriorFrame frame) {
+  ObjectBelief box;
+  box.id = "box_1";
+  box.type = "box";
+  box.log_odds = 1.0;
+  box.pose_world.mean = Se3(so3_exp({0.3, -0.4, 0.5}), {0.1, -0.2, 1.5});
+  box.pose_world.covariance = Vector6d(0.01, 0.02, 0.03, 0.04, 0.05, 0.06).asDiagonal();
+  return {frame, {box}};
+}
+
+/// Nothing to see; each frame's camera stands elsewhere, turned.
+Frame frame_of(std::int64_t index) {
+  Frame frame;
+  frame.index = FrameIndex{index};
+  // Far enough apart that each look is news.
+  frame.stamp_ns = index * 60'000'000'000;
+  frame.cloud_camera = OrganizedCloud(8, 8);
+  auto const step = static_cast<double>(index);
+  frame.T_source_camera =
+      Se3(so3_exp({0.2, 0.3 * step, -0.1}), {1.0 + step, 2.0 - 3.0 * step, 0.5 * step});
+  return frame;
+}
+
+class StagesTest : public testing::Test {
+protected:
+  StagesTest() {
+    config_.capture.independent_frames = true;
+    // The world is the source's: what a camera sees then depends on its pose alone.
+    config_.pose.level = LevelMode::kOff;
+    auto known = std::make_shared<KnownObjects>();
+    known->models = {{"box", {"box", {std::vector<Solid>{box_on_base({0.1, 0.2, 0.3})}}, {}}}};
+    known->shapes = shapes_of(known->models);
+    auto detector = std::make_unique<FakeDetector>(asked_);
+    detector_ = detector.get();
+    known->detector = std::move(detector);
+    known_ = std::move(known);
+  }
+
+  /// The beliefs after each frame, each segmented and fused with the one before.
+  std::vector<BeliefState> run(Prior const& prior, std::int64_t frames,
+                               WorldLevel const& level = {}) {
+    Stages const stages = make_stages(config_, level, prior, known_);
+    BeliefState belief = prior_belief(prior, frame_of(0).T_source_camera);
+    std::vector<BeliefState> beliefs;
+    for (std::int64_t i = 0; i < frames; ++i) {
+      belief = stages.fusion(belief, segment(stages, frame_of(i), belief));
+      beliefs.push_back(belief);
+    }
+    return beliefs;
+  }
+
+  PipelineConfig config_;
+  std::vector<DetectionRequest> asked_;
+  FakeDetector* detector_ = nullptr;
+  std::shared_ptr<KnownObjects const> known_;
+};
+
+void expect_pose(PoseDistribution const& pose, PoseDistribution const& expected) {
+  EXPECT_TRUE(pose.mean.matrix().isApprox(expected.mean.matrix(), 1e-9)) << pose.mean.matrix();
+  EXPECT_LT((pose.covariance - expected.covariance).norm(), 1e-9) << pose.covariance;
+}
+
+TEST_F(StagesTest, IndependentFramesBeginWithAPriorInTheirOwnCamera) {
+  Prior const prior = prior_in(PriorFrame::kCamera);
+  std::vector<BeliefState> const beliefs = run(prior, 3);
+  ASSERT_THAT(asked_, SizeIs(3));
+  PoseDistribution const& told = prior.objects[0].pose_world;
+  for (std::int64_t i = 0; i < 3; ++i) {
+    auto const n = static_cast<std::size_t>(i);
+    expect_pose(asked_[n].expected_camera, told);
+    ASSERT_THAT(beliefs[n].objects, SizeIs(1));
+    expect_pose(beliefs[n].objects[0].pose_world, transformed(frame_of(i).T_source_camera, told));
+  }
+}
+
+TEST_F(StagesTest, IndependentFramesBeginWithAPriorInTheWorldWhereverTheCameraIs) {
+  Prior const prior = prior_in(PriorFrame::kWorld);
+  std::vector<BeliefState> const beliefs = run(prior, 3);
+  ASSERT_THAT(asked_, SizeIs(3));
+  PoseDistribution const& told = prior.objects[0].pose_world;
+  for (std::int64_t i = 0; i < 3; ++i) {
+    auto const n = static_cast<std::size_t>(i);
+    expect_pose(asked_[n].expected_camera,
+                transformed(frame_of(i).T_source_camera.inverse(), told));
+    expect_pose(beliefs[n].objects.at(0).pose_world, told);
+  }
+}
+
+TEST_F(StagesTest, NothingLearntInAnIndependentFrameIsLeftInTheNext) {
+  Prior const prior = prior_in(PriorFrame::kCamera);
+  detector_->aside_m = 0.1;
+  std::vector<BeliefState> const beliefs = run(prior, 3);
+  for (std::int64_t i = 0; i < 3; ++i) {
+    ObjectBelief const& object = beliefs.at(static_cast<std::size_t>(i)).objects.at(0);
+    EXPECT_EQ(object.evidence, Evidence::kSeen);
+    EXPECT_NEAR(object.log_odds, beliefs[0].objects[0].log_odds, 1e-9);
+    Vector3d const moved =
+        frame_of(i).T_source_camera.inverse() * object.pose_world.mean.translation();
+    Vector3d const halfway = prior.objects[0].pose_world.mean.translation() + Vector3d(0.05, 0, 0);
+    EXPECT_LT((moved - halfway).norm(), 1e-9) << "detection and prior are equally sure";
+    expect_pose(asked_[static_cast<std::size_t>(i)].expected_camera, prior.objects[0].pose_world);
+  }
+}
+
+TEST_F(StagesTest, APriorInTheCameraFollowsEachFramesOwnLevel) {
+  config_.pose.level = LevelMode::kAuto;
+  config_.pose.camera_height_m = 1.5;
+  Prior const prior = prior_in(PriorFrame::kCamera);
+  std::vector<BeliefState> const beliefs = run(prior, 2);
+  for (BeliefState const& belief : beliefs) {
+    EXPECT_NEAR(belief.T_world_camera.translation().z(), 1.5, 1e-9);
+    expect_pose(belief.objects.at(0).pose_world,
+                transformed(belief.T_world_camera, prior.objects[0].pose_world));
+  }
+}
+
+TEST_F(StagesTest, FramesThatBelongTogetherHaveOnePriorInTheWorld) {
+  config_.capture.independent_frames = false;
+  Prior const prior = prior_in(PriorFrame::kCamera);
+  run(prior, 3, {Se3(), true, ""});
+  ASSERT_THAT(asked_, SizeIs(3));
+  // Placed once, at the first camera; later ones see it from where they stand.
+  PoseDistribution const in_world =
+      transformed(frame_of(0).T_source_camera, prior.objects[0].pose_world);
+  expect_pose(asked_[2].expected_camera,
+              transformed(frame_of(2).T_source_camera.inverse(), in_world));
+}
+
+}  // namespace
+}  // namespace credo
