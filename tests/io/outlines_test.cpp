@@ -1,6 +1,5 @@
 // Known objects in pictures: the lines of their models where their poses put them, and none
 // elsewhere.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
