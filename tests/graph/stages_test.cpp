@@ -148,12 +148,13 @@ TEST_F(StagesTest, APriorInTheCameraFollowsEachFramesOwnLevel) {
   config_.pose.level = LevelMode::kAuto;
   config_.pose.camera_height_m = 1.5;
   Prior const prior = prior_in(PriorFrame::kCamera);
-  std::vector<BeliefState> const beliefs = run(prior, 2);
-  for (BeliefState const& belief : beliefs) {
+  for (BeliefState const& belief : run(prior, 2)) {
     EXPECT_NEAR(belief.T_world_camera.translation().z(), 1.5, 1e-9);
     expect_pose(belief.objects.at(0).pose_world,
                 transformed(belief.T_world_camera, prior.objects[0].pose_world));
   }
+  ASSERT_THAT(asked_, SizeIs(2));
+  expect_pose(asked_[1].expected_camera, prior.objects[0].pose_world);
 }
 
 TEST_F(StagesTest, FramesThatBelongTogetherHaveOnePriorInTheWorld) {
