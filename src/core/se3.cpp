@@ -7,6 +7,18 @@
 #include <utility>
 
 namespace credo {
+namespace {
+
+/// Below this a quotient of small numbers loses more digits than a series' next term.
+constexpr double kSmallAngle_rad = 1e-3;
+
+Eigen::Matrix3d cross_matrix(Eigen::Vector3d const& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+}  // namespace
 
 Se3::Se3(Eigen::Quaterniond const& rotation, Eigen::Vector3d translation_m)
     : rotation_(rotation), translation_m_(std::move(translation_m)) {
@@ -69,6 +81,27 @@ Eigen::Vector3d so3_log(Eigen::Quaterniond const& rotation) {
     return 2.0 / cosine * v;
   }
   return 2.0 * std::atan2(sine, cosine) / sine * v;
+}
+
+Eigen::Matrix3d so3_right_jacobian(Eigen::Vector3d const& phi_rad) {
+  double const angle2 = phi_rad.squaredNorm();
+  double const angle = std::sqrt(angle2);
+  bool const small = angle < kSmallAngle_rad;
+  Eigen::Matrix3d const cross = cross_matrix(phi_rad);
+  double const first = small ? 0.5 - angle2 / 24.0 : (1.0 - std::cos(angle)) / angle2;
+  double const second =
+      small ? 1.0 / 6.0 - angle2 / 120.0 : (angle - std::sin(angle)) / (angle2 * angle);
+  return Eigen::Matrix3d::Identity() - first * cross + second * cross * cross;
+}
+
+Eigen::Matrix3d so3_right_jacobian_inverse(Eigen::Vector3d const& phi_rad) {
+  double const angle2 = phi_rad.squaredNorm();
+  double const angle = std::sqrt(angle2);
+  Eigen::Matrix3d const cross = cross_matrix(phi_rad);
+  double const second = angle < kSmallAngle_rad
+                            ? 1.0 / 12.0 + angle2 / 720.0
+                            : 1.0 / angle2 - 0.5 / (angle * std::tan(0.5 * angle));
+  return Eigen::Matrix3d::Identity() + 0.5 * cross + second * cross * cross;
 }
 
 Eigen::Quaterniond rotation_of_rpy_deg(Eigen::Vector3d const& rpy_deg) {

@@ -38,6 +38,12 @@ Eigen::Quaterniond so3_exp(Eigen::Vector3d const& phi_rad);
 /// Rotation vector of least length, |phi| <= pi; inverse of so3_exp for |phi| < pi.
 Eigen::Vector3d so3_log(Eigen::Quaterniond const& rotation);
 
+/// How exp changes with its argument, on the right: exp(phi + d) = exp(phi) exp(J d) to first order
+/// in d (Sola, Deray and Atchuthan 2018, equations 143 and 144).
+Eigen::Matrix3d so3_right_jacobian(Eigen::Vector3d const& phi_rad);
+/// Its inverse, for |phi| < 2 pi.
+Eigen::Matrix3d so3_right_jacobian_inverse(Eigen::Vector3d const& phi_rad);
+
 /// Turns about the fixed axes x, then y, then z, degrees.
 Eigen::Quaterniond rotation_of_rpy_deg(Eigen::Vector3d const& rpy_deg);
 

@@ -1,5 +1,6 @@
 #include "geometry/pose_fusion.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <stdexcept>
@@ -75,7 +76,6 @@ Se3 turned_back(Se3 const& expected, Se3 const& detected, SymmetryAxis const& ax
 
 /// Both poses in the coordinates that the update works in.
 struct Comparison {
-  Se3 equivalent;
   Vector6d difference;
   Matrix6d expected_covariance;
   Matrix6d detected_covariance;
@@ -83,9 +83,9 @@ struct Comparison {
 
 /// `equivalent` looks like the detected pose.
 Comparison compared(PoseDistribution const& expected, PoseDistribution const& detected,
-                    Se3 const& equivalent, Eigen::Vector3d const& centre) {
+                    Se3 const& equivalent, Symmetry const& symmetry) {
+  Eigen::Vector3d const centre = centre_of(symmetry);
   Comparison result;
-  result.equivalent = equivalent;
   result.difference << equivalent * centre - expected.mean * centre,
       so3_log(expected.mean.rotation().conjugate() * equivalent.rotation());
   Matrix6d const to_model = model_errors(expected.mean, centre);
@@ -94,62 +94,110 @@ Comparison compared(PoseDistribution const& expected, PoseDistribution const& de
   Matrix6d moved = Matrix6d::Identity();
   moved.topRightCorner<3, 3>() =
       -cross_matrix(equivalent.translation() - detected.mean.translation());
-  Matrix6d const from_detected = model_errors(equivalent, centre) * moved;
+  Matrix6d from_detected = model_errors(equivalent, centre) * moved;
+  if (!symmetry.axis) {
+    from_detected.bottomRows<3>() =
+        so3_right_jacobian_inverse(result.difference.tail<3>()) * from_detected.bottomRows<3>();
+  }
   result.detected_covariance =
       symmetric(from_detected * detected.covariance * from_detected.transpose());
   return result;
 }
 
-double squared_distance(Comparison const& comparison, Symmetry const& symmetry) {
-  Matrix6d information =
-      inverse_of(comparison.expected_covariance + comparison.detected_covariance);
+PoseMatch match_of(Comparison const& comparison, Symmetry const& symmetry) {
+  Matrix6d const sum = comparison.expected_covariance + comparison.detected_covariance;
+  Matrix6d information = inverse_of(sum);
+  PoseMatch match;
+  match.log_determinant = std::log(sum.determinant());
   if (symmetry.axis) {
-    information = without(information, unseen_direction(*symmetry.axis));
+    // The determinant of the rest is the whole's times the information about what is left out.
+    Vector6d const unseen = unseen_direction(*symmetry.axis);
+    match.log_determinant += std::log(unseen.dot(information * unseen));
+    match.degrees_of_freedom = 5;
+    information = without(information, unseen);
   }
-  return comparison.difference.dot(information * comparison.difference);
+  match.squared_distance = comparison.difference.dot(information * comparison.difference);
+  return match;
 }
 
-std::pair<Comparison, double> nearest(PoseDistribution const& expected,
-                                      PoseDistribution const& detected, Symmetry const& symmetry) {
-  Eigen::Vector3d const centre = centre_of(symmetry);
+std::pair<Comparison, PoseMatch> nearest(PoseDistribution const& expected,
+                                         PoseDistribution const& detected,
+                                         Symmetry const& symmetry) {
   Se3 const first =
       symmetry.axis ? turned_back(expected.mean, detected.mean, *symmetry.axis) : detected.mean;
-  Comparison best = compared(expected, detected, first, centre);
-  double least = squared_distance(best, symmetry);
+  Comparison best = compared(expected, detected, first, symmetry);
+  PoseMatch best_match = match_of(best, symmetry);
   for (Eigen::Quaterniond const& rotation : symmetry.rotations) {
     Comparison const other = compared(
-        expected, detected, detected.mean * Se3(rotation, Eigen::Vector3d::Zero()), centre);
-    double const distance = squared_distance(other, symmetry);
-    if (distance < least) {
-      least = distance;
+        expected, detected, detected.mean * Se3(rotation, Eigen::Vector3d::Zero()), symmetry);
+    PoseMatch const match = match_of(other, symmetry);
+    if (match.squared_distance < best_match.squared_distance) {
       best = other;
+      best_match = match;
     }
   }
-  return {best, least};
+  return {best, best_match};
+}
+
+/// The information that is left when so much is forgotten that with `weight` more of `look` the
+/// covariance is, in no direction, less than the share of the look's. Of `told` directions a look
+/// tells something; about the others nothing is forgotten.
+Matrix6d with_room(Matrix6d const& information, Matrix6d const& look, Eigen::Index told,
+                   PoseUpdate const& update) {
+  Eigen::SelfAdjointEigenSolver<Matrix6d> const parts(look);
+  // look = root root^T, and `whiten` is the inverse of root on what a look tells of.
+  Eigen::MatrixXd const axes = parts.eigenvectors().rightCols(told);
+  Eigen::VectorXd const scale = parts.eigenvalues().tail(told).cwiseSqrt();
+  Eigen::MatrixXd const root = axes * scale.asDiagonal();
+  Eigen::MatrixXd const whiten = scale.cwiseInverse().asDiagonal() * axes.transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const looks(whiten * information *
+                                                             whiten.transpose());
+  Eigen::VectorXd const excess =
+      (looks.eigenvalues().array() + update.weight - 1.0 / update.min_covariance_share)
+          .cwiseMax(0.0);
+  Eigen::MatrixXd const spread = root * looks.eigenvectors();
+  return symmetric(information - spread * excess.asDiagonal() * spread.transpose());
+}
+
+void check(PoseUpdate const& update) {
+  if (!(update.weight > 0.0 && update.weight <= 1.0)) {
+    throw std::logic_error("updated_pose: weight " + std::to_string(update.weight) +
+                           " must be in (0, 1]");
+  }
+  if (!(update.min_covariance_share >= 0.0 && update.min_covariance_share <= 0.5)) {
+    throw std::logic_error("updated_pose: min_covariance_share " +
+                           std::to_string(update.min_covariance_share) + " must be in [0, 0.5]");
+  }
 }
 
 }  // namespace
 
 PoseMatch match_pose(PoseDistribution const& expected, PoseDistribution const& detected,
                      Symmetry const& symmetry) {
-  auto const [comparison, distance] = nearest(expected, detected, symmetry);
-  return {distance, symmetry.axis ? 5 : 6, comparison.equivalent};
+  return nearest(expected, detected, symmetry).second;
 }
 
 PoseDistribution updated_pose(PoseDistribution const& expected, PoseDistribution const& detected,
-                              Symmetry const& symmetry, double weight) {
-  if (!(weight > 0.0 && weight <= 1.0)) {
-    throw std::logic_error("updated_pose: weight " + std::to_string(weight) + " must be in (0, 1]");
-  }
+                              Symmetry const& symmetry, PoseUpdate const& update) {
+  check(update);
   Eigen::Vector3d const centre = centre_of(symmetry);
   Comparison const comparison = nearest(expected, detected, symmetry).first;
-  Matrix6d news = inverse_of(comparison.detected_covariance);
+  Matrix6d look = inverse_of(comparison.detected_covariance);
   if (symmetry.axis) {
-    news = without(news, unseen_direction(*symmetry.axis));
+    look = without(look, unseen_direction(*symmetry.axis));
   }
-  news *= weight;
-  Matrix6d const covariance = inverse_of(inverse_of(comparison.expected_covariance) + news);
+  Matrix6d known = inverse_of(comparison.expected_covariance);
+  if (update.min_covariance_share > 0.0) {
+    known = with_room(known, look, symmetry.axis ? 5 : 6, update);
+  }
+  Matrix6d const news = update.weight * look;
+  Matrix6d covariance = inverse_of(known + news);
   Vector6d const correction = covariance * (news * comparison.difference);
+  if (!symmetry.axis) {
+    Matrix6d moved = Matrix6d::Identity();
+    moved.bottomRightCorner<3, 3>() = so3_right_jacobian(correction.tail<3>());
+    covariance = moved * covariance * moved.transpose();
+  }
   Eigen::Quaterniond const rotation = expected.mean.rotation() * so3_exp(correction.tail<3>());
   Eigen::Vector3d const centre_now = expected.mean * centre + correction.head<3>();
   Se3 const mean(rotation, centre_now - rotation * centre);

@@ -13,8 +13,10 @@ struct PoseMatch {
   /// Of the chi-square distribution that it follows if both are about the same pose: 6, or 5 where
   /// turns about an axis cannot be told.
   int degrees_of_freedom = 6;
-  /// The pose that looks just like the detected one and is nearest to the expected one.
-  Se3 equivalent;
+  /// Of the sum of both covariances, without what cannot be told. Among several expected poses the
+  /// detected one is likeliest to be of that with the least squared_distance + log_determinant: a
+  /// vague one is near to everything.
+  double log_determinant = 0.0;
 };
 
 /// Expected and detected pose of one model, in one frame, their errors independent. Covariances
@@ -26,14 +28,26 @@ struct PoseMatch {
 [[nodiscard]] PoseMatch match_pose(PoseDistribution const& expected,
                                    PoseDistribution const& detected, Symmetry const& symmetry);
 
+/// How much of a detection to take.
+struct PoseUpdate {
+  /// In (0, 1]: the part of the detection that is news; its information counts so much.
+  double weight = 1.0;
+  /// In [0, 0.5]: the part of the detection's covariance that no number of looks takes away,
+  /// because their errors have it in common. Information beyond is forgotten, direction by
+  /// direction, before the news is added. 0: nothing is forgotten.
+  double min_covariance_share = 0.0;
+};
+
 /// The expected pose after the detection (Kalman's update in information form, error state in the
-/// tangent space; thesis algorithm 4). `weight` in (0, 1] is the part of the detection that is
-/// news: its information counts so much.
+/// tangent space; thesis algorithm 4). Throws std::logic_error for an update out of its ranges.
 ///
 /// About a symmetry axis nothing is learnt, ever: the information about that turn stays what it
-/// was, to rounding, after any number of updates.
+/// was, to rounding, after any number of updates. For the same reason the tangent spaces of
+/// expected, detected and new pose are told apart (by the Jacobians of exp) only without such an
+/// axis; with one, all that is left between them is a swing, which the gate keeps small.
 [[nodiscard]] PoseDistribution updated_pose(PoseDistribution const& expected,
                                             PoseDistribution const& detected,
-                                            Symmetry const& symmetry, double weight = 1.0);
+                                            Symmetry const& symmetry,
+                                            PoseUpdate const& update = {});
 
 }  // namespace credo

@@ -50,6 +50,24 @@ TEST_F(Se3Properties, LogUndoesExpBelowHalfATurn) {
   }
 }
 
+TEST_F(Se3Properties, JacobiansAreThoseOfExp) {
+  constexpr double kStep = 1e-6;
+  for (double const scale : {1.8, 0.1, 1e-2, 1e-3, 1e-5, 0.0}) {
+    for (int i = 0; i < 50; ++i) {
+      Eigen::Vector3d const phi = vector(scale);
+      Eigen::Matrix3d numeric;
+      for (int axis = 0; axis < 3; ++axis) {
+        Eigen::Vector3d const step = kStep * Eigen::Vector3d::Unit(axis);
+        numeric.col(axis) = so3_log(so3_exp(phi - step).conjugate() * so3_exp(phi + step));
+      }
+      Eigen::Matrix3d const exact = so3_right_jacobian(phi);
+      EXPECT_LT((numeric / (2 * kStep) - exact).norm(), 1e-8);
+      EXPECT_LT((so3_right_jacobian_inverse(phi) * exact - Eigen::Matrix3d::Identity()).norm(),
+                1e-9);
+    }
+  }
+}
+
 TEST_F(Se3Properties, LogTakesTheShorterWayRound) {
   Eigen::Vector3d const phi(0, 0, 1.5 * std::numbers::pi);
   EXPECT_NEAR(so3_log(so3_exp(phi)).z(), -0.5 * std::numbers::pi, 1e-12);

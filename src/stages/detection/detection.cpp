@@ -74,7 +74,8 @@ std::vector<Pair> pairs_of(BeliefState const& seen,
     }
   }
   std::ranges::sort(pairs, {}, [](Pair const& pair) {
-    return std::tuple(pair.match.squared_distance, pair.object, pair.detection);
+    return std::tuple(pair.match.squared_distance + pair.match.log_determinant, pair.object,
+                      pair.detection);
   });
   return pairs;
 }
@@ -142,8 +143,9 @@ Segmentation match_detections(Segmentation segmentation, BeliefState const& seen
   std::vector<Pair const*> nearest(detections.size(), nullptr);
   std::vector<bool> taken(detections.size(), false);
   for (Pair const& pair : pairs) {
-    if (nearest[pair.detection] == nullptr) {
-      nearest[pair.detection] = &pair;
+    Pair const*& near = nearest[pair.detection];
+    if (near == nullptr || pair.match.squared_distance < near->match.squared_distance) {
+      near = &pair;
     }
     if (of_object[pair.object] == nullptr && !taken[pair.detection] && gate.passes(pair.match)) {
       of_object[pair.object] = &pair;

@@ -27,8 +27,9 @@ FieldList fields(DetectionConfig& config);
 /// refused. `objects_looked_for` is then true.
 ///
 /// Distances are taken to the pose distributions of `seen`, least over the symmetry of the models
-/// (a type without a model has none). Pairs within the gate are matched nearest first, ties by
-/// object, then by detection; each object and each detection at most once.
+/// (a type without a model has none). Pairs within the gate are matched likeliest first (a vague
+/// object is near to everything), ties by object, then by detection; each object and each detection
+/// at most once.
 ///
 /// Throws std::runtime_error for a detection that cannot be: a pose or covariance that is not
 /// finite, a covariance that is not positive definite.

@@ -198,5 +198,17 @@ TEST(MatchDetections, ADetectorThatTalksNonsenseIsTold) {
   EXPECT_EQ(refusal(bad), "the detector gave a box whose pose or covariance is not finite");
 }
 
+// To an object of which little is known everything is near.
+TEST(MatchDetections, ASharpObjectIsLikelierThanAVagueOneAtTheSameDistance) {
+  BeliefState belief;
+  add_object(belief, "vague", "box", {2.3, -0.3, 0.7});
+  belief.objects[0].pose_world.covariance = covariance(1.0, 1.0);
+  add_object(belief, "sharp", "box", {2.0, 0.12, 0.7});
+  Segmentation const one = matched(belief, {detected_at("box", {2.0, 0.2, 0.7})});
+  EXPECT_THAT(ids_of(one), ElementsAre("sharp"));
+  Segmentation const far = matched(belief, {detected_at("box", {2.0, 0.9, 0.7})});
+  EXPECT_THAT(ids_of(far), ElementsAre("vague")) << "the gate still holds";
+}
+
 }  // namespace
 }  // namespace credo
