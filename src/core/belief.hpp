@@ -66,9 +66,12 @@ struct ObjectBelief {
   std::string type;
   double log_odds = 0.0;
   PoseDistribution pose_world;
+  /// Of the pose before the first frame: how far from where it was told it may be at all. None:
+  /// what was learnt of the pose is never forgotten.
+  std::optional<Matrix6d> prior_covariance;
   Evidence evidence = Evidence::kNotSeen;
   std::optional<LabelCode> label;
-  /// When its pose was updated last; none while it is the prior's.
+  /// When and from where it was seen last; none while it is where it was told.
   std::optional<Look> last_seen;
 };
 

@@ -1,5 +1,7 @@
 #include "core/prior_file.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 #include <string>
@@ -100,6 +102,9 @@ Prior prior_of(PriorFile const& file, double probability, std::string const& whe
     PriorEntry const& entry = file.objects[i];
     std::string const place = where + ": objects[" + std::to_string(i) + "]";
     need(!entry.id.empty(), place, "id");
+    if (std::ranges::any_of(entry.id, [](unsigned char c) { return std::iscntrl(c) != 0; })) {
+      throw InputError(place + ": id has a line break or another control character");
+    }
     std::string const who = place + " (" + entry.id + ")";
     need(!entry.model.empty(), who, "model");
     if (!ids.insert(entry.id).second) {
@@ -110,6 +115,7 @@ Prior prior_of(PriorFile const& file, double probability, std::string const& whe
     object.type = entry.model;
     object.log_odds = log_odds_of(probability);
     object.pose_world = pose_of(entry, who);
+    object.prior_covariance = object.pose_world.covariance;
     prior.objects.push_back(std::move(object));
   }
   return prior;
@@ -121,6 +127,7 @@ BeliefState prior_belief(Prior const& prior, Se3 const& T_world_camera) {
   if (prior.frame == PriorFrame::kCamera) {
     for (ObjectBelief& object : belief.objects) {
       object.pose_world = transformed(T_world_camera, object.pose_world);
+      object.prior_covariance = object.pose_world.covariance;
     }
   }
   return belief;

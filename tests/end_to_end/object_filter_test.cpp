@@ -122,5 +122,26 @@ TEST(ObjectFilter, ACylindersYawStaysUncertainForEver) {
   }
 }
 
+// Nudged by 4 cm, within what the prior lets be, after ten seconds of looking at it from one place:
+// at first the gate does not believe it, and then it is found where it is.
+TEST(ObjectFilter, ANudgedBoxIsFoundAgain) {
+  KnownScene known = small_box_on_table();
+  known.scene.camera.frames_per_s = 30;
+  known.scene.camera.path = {{0, {0, 0, 1.4}, {2, 0, 0.6}}, {20, {0, 0, 1.4}, {2, 0, 0.6}}};
+  known.scene.events = {{10.0, "box", SceneChange::kMoved, {2.0, 0.14, 0.72}, {}}};
+  std::vector<BeliefPtr> const beliefs = run_scene(known, {});
+  ASSERT_EQ(beliefs.size(), 601U);
+  auto const off_m = [&](std::size_t frame) {
+    return (object_of(*beliefs[frame], "box_1").pose_world.mean.translation() -
+            true_pose(known.scene, static_cast<std::int64_t>(frame), "box").translation())
+        .norm();
+  };
+  EXPECT_LT(off_m(299), 0.005);
+  EXPECT_GT(off_m(300), 0.035);
+  EXPECT_LT(off_m(390), 0.01) << "three seconds later";
+  EXPECT_LT(off_m(600), 0.005);
+  EXPECT_GT(probability_of(object_of(*beliefs[600], "box_1").log_odds), 0.98);
+}
+
 }  // namespace
 }  // namespace credo::test

@@ -34,6 +34,23 @@ FieldList fields(ExistenceConfig& config) {
   };
 }
 
+FieldList fields(ObjectFusionConfig& config) {
+  return {
+      {"min_covariance_share",
+       &config.min_covariance_share,
+       {0, 0.5},
+       "",
+       "part of a detection's covariance that no number of detections takes away"},
+      {"unseen_relaxation",
+       &config.unseen_relaxation,
+       {0, 1},
+       "",
+       "part of the way back to the prior's uncertainty, for a look in vain at what is believed to "
+       "be "
+       "gone"},
+  };
+}
+
 FieldList fields(FloorFusionConfig& config) {
   return {
       {"point_spacing_m", &config.point_spacing_m, {1e-3, 1}, "m", "grid on which points are kept"},
@@ -126,6 +143,8 @@ FieldList fields(FusionConfig& config) {
        "that a known object, or stuff seen for the first time, is there"},
       section("existence", fields(config.existence),
               "how observations move the probability that a thing is there"),
+      section("objects", fields(config.objects),
+              "how the pose of a known object is learnt and forgotten"),
       section("floor", fields(config.floor), "how observations of the floor add up"),
       section("walls", fields(config.walls), "when two walls are one"),
       section("stuff", fields(config.stuff), "when a cluster is a thing seen before"),

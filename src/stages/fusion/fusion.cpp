@@ -17,7 +17,7 @@ BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConf
   belief.stamp_ns = segmentation.stamp_ns;
   belief.segmented_with = segmentation.segmented_with;
   belief.T_world_camera = segmentation.T_world_camera;
-  belief.objects = fused_objects(std::move(belief.objects), segmentation, change, config.existence);
+  belief.objects = fused_objects(std::move(belief.objects), segmentation, change, config);
   belief.floor = fused_floor(std::move(belief.floor), segmentation.floor, config.floor);
   FusedWalls walls =
       fused_walls({std::move(belief.walls), belief.next_wall_id}, segmentation.walls, config.walls);

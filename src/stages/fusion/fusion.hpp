@@ -25,6 +25,18 @@ struct ExistenceConfig {
 };
 FieldList fields(ExistenceConfig& config);
 
+/// How the pose of a known object is learnt and forgotten (thesis algorithm 4 never forgets: T).
+struct ObjectFusionConfig {
+  /// The part of a detection's covariance that no number of looks takes away, because a detector's
+  /// errors have it in common (T: 0).
+  double min_covariance_share = 0.05;
+  /// What is looked for in vain may have been moved: the less it is believed to be there, the more
+  /// its pose goes back to the uncertainty of the prior. So much of the way for a look at what is
+  /// believed to be gone; 0 never (T).
+  double unseen_relaxation = 0.1;
+};
+FieldList fields(ObjectFusionConfig& config);
+
 /// How observations of the floor add up (thesis 4.2).
 struct FloorFusionConfig {
   double point_spacing_m = 0.05;
@@ -83,6 +95,7 @@ struct FusionConfig {
   /// That a known object, or stuff seen for the first time, is there.
   double prior_probability = 0.99;
   ExistenceConfig existence;
+  ObjectFusionConfig objects;
   FloorFusionConfig floor;
   WallFusionConfig walls;
   StuffFusionConfig stuff;

@@ -136,7 +136,7 @@ FieldList fields(RegionGrowingConfig& config) {
        &config.max_angle_rad,
        {0, 3.14},
        "rad",
-       "... if their normals differ by less than this"},
+       "points join a region if their normals differ by less than this"},
       {"bounds_margin_m",
        &config.bounds_margin_m,
        {0, 1},
@@ -146,7 +146,8 @@ FieldList fields(RegionGrowingConfig& config) {
        &config.max_distance_m,
        {0, 100},
        "m",
-       "... nor farther from its model's surface, outside, than this"},
+       "nor does a region grow farther than this from its model's surface; its seeds may lie "
+       "farther"},
       {"max_model_angle_rad",
        &config.max_model_angle_rad,
        {0, 3.15},
@@ -156,7 +157,7 @@ FieldList fields(RegionGrowingConfig& config) {
        &config.crease_radius_m,
        {0, 1},
        "m",
-       "... or of another face of the model within this distance: normals at creases are blended"},
+       "at creases, where normals are blended, any face of the model within this distance will do"},
       {"seed_distance_m",
        &config.seed_distance_m,
        {0, 1},
@@ -166,7 +167,7 @@ FieldList fields(RegionGrowingConfig& config) {
        &config.open_mesh_distance_m,
        {0, 1},
        "m",
-       "the same for a mesh with holes, which has no inside"},
+       "points as near to a mesh with holes, which has no inside, seed its region"},
   };
 }
 

@@ -16,8 +16,8 @@ struct RegionGrowingConfig {
   double max_angle_rad = 0.3;
   /// The region stays within the model's bounding box, so much larger on each side ("loosely") ...
   double bounds_margin_m = 0.03;
-  /// ... and within this distance of the model's surface, or inside (T: no such limit). A cat's
-  /// bounding box holds more desk than cat.
+  /// ... and within this distance of the model's surface, or inside, or where it is seeded (T: no
+  /// such limit). A cat's bounding box holds more desk than cat.
   double max_distance_m = 0.02;
   /// Points of a region have a normal within this angle of that of the model's nearest surface, so
   /// that a table is not taken for the box on it: less than a right angle, but not much, because

@@ -251,13 +251,13 @@ TEST(Fuse, LeavesTheBeliefItStartedFromAlone) {
 TEST(Fields, DescribeEverythingThatFusionIsToldOnce) {
   FusionConfig config;
   FieldList const list = fields(config);
-  ASSERT_THAT(list, SizeIs(5));
+  ASSERT_THAT(list, SizeIs(6));
   EXPECT_EQ(list[0].name, "prior_probability");
   std::vector<std::size_t> counts;
   for (std::size_t i = 1; i < list.size(); ++i) {
     counts.push_back(std::get<FieldList>(list[i].target).size());
   }
-  EXPECT_THAT(counts, testing::ElementsAre(6, 2, 7, 9));
+  EXPECT_THAT(counts, testing::ElementsAre(6, 2, 2, 7, 9));
 }
 
 }  // namespace

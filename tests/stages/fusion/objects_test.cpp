@@ -109,8 +109,41 @@ double deviation_after(int frames, double step_rad, FusionConfig const& config) 
 TEST(FusedObjects, StandingStillDoesNotAddUpToCertainty) {
   double const thirty = deviation_after(30, 0.0, thesis_config());
   EXPECT_NEAR(thirty, kNoise_m / std::sqrt(30.0), 1e-4) << "thesis: every frame counts in full";
-  EXPECT_GT(deviation_after(30, 0.0, {}), 2 * thirty);
-  EXPECT_LT(deviation_after(30, 1.0, {}), 1.05 * thirty);
+  FusionConfig without_share;
+  without_share.objects.min_covariance_share = 0.0;
+  EXPECT_GT(deviation_after(30, 0.0, without_share), 2 * thirty);
+  EXPECT_LT(deviation_after(30, 1.0, without_share), 1.05 * thirty);
+}
+
+// A minute from all sides, or an hour: what a detector's errors have in common stays.
+TEST(FusedObjects, ThereIsAnEndToCertainty) {
+  FusionConfig const config;
+  double const least = kNoise_m * std::sqrt(config.objects.min_covariance_share);
+  EXPECT_NEAR(deviation_after(300, 1.0, config), least, 1e-6);
+  EXPECT_NEAR(deviation_after(3000, 0.0, config), least, 1e-4);
+}
+
+// A miss of what is believed in says little; what is believed to be gone may be anywhere within
+// what was told.
+TEST(FusedObjects, WhatIsGoneMayHaveBeenMoved) {
+  BeliefState belief = one_box();
+  Matrix6d const told = belief.objects[0].pose_world.covariance;
+  belief.objects[0].prior_covariance = told;
+  belief = fuse(std::move(belief), look(0, true, 1.0), {});
+  Matrix6d const known = belief.objects[0].pose_world.covariance;
+  BeliefState thesis = belief;
+  auto const back = [&](BeliefState const& now) {
+    return (now.objects[0].pose_world.covariance - known).trace() / (told - known).trace();
+  };
+  belief = fuse(std::move(belief), look(1, false, 1.0), {});
+  EXPECT_LT(back(belief), 2e-3);
+  for (int i = 2; i < 40; ++i) {
+    belief = fuse(std::move(belief), look(i, false, 1.0), {});
+    thesis = fuse(std::move(thesis), look(i, false, 1.0), thesis_config());
+  }
+  EXPECT_GT(back(belief), 0.95);
+  EXPECT_LE(back(belief), 1.0);
+  EXPECT_EQ(back(thesis), 0.0);
 }
 
 // What was not seen for a second is news when it is seen again, however often it flickers.

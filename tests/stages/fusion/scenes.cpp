@@ -19,6 +19,8 @@ FusionConfig thesis_config() {
   FusionConfig config;
   config.existence.max_log_odds = 0.0;
   config.existence.correlation_time_s = 0.0;
+  config.objects.min_covariance_share = 0.0;
+  config.objects.unseen_relaxation = 0.0;
   config.walls.segment_trim_ratio = 0.0;
   config.walls.merge_known = false;
   config.stuff.score = StuffScore::kSum;
