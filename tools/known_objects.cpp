@@ -8,7 +8,6 @@
 #include "config/yaml_config.hpp"
 #include "core/error.hpp"
 #include "core/model_file.hpp"
-#include "geometry/mesh_edges.hpp"
 #include "io/mesh_file.hpp"
 #include "io/recorded_detections.hpp"
 #include "sim/sim_detector.hpp"
@@ -68,7 +67,7 @@ ObjectModel load_model(fs::path const& path, std::vector<std::string>& warnings)
   if (!file.mesh.empty()) {
     fs::path const mesh_path = path.parent_path() / file.mesh;
     LoadedMesh loaded = read_mesh(mesh_path, file.unit);
-    if (!is_closed(edges_of(loaded.mesh))) {
+    if (loaded.boundary_edges > 0) {
       warnings.push_back(fmt::format(
           "{}: the mesh is open ({} edges without a triangle on either side) and so has no inside: "
           "what is near its surface (region_growing.open_mesh_distance_m) counts as the object's",
@@ -90,7 +89,8 @@ LoadedPrior load_prior(fs::path const& path, double probability) {
   for (ObjectBelief& object : loaded.prior.objects) {
     fs::path const model_path =
         find_model(object.type, path, path.string() + ": object " + object.id);
-    auto const [known, is_new] = names.try_emplace(model_path);
+    // Two ways to tell one file are one model.
+    auto const [known, is_new] = names.try_emplace(fs::weakly_canonical(model_path));
     if (is_new) {
       ObjectModel model = load_model(model_path, loaded.warnings);
       known->second = model.name;

@@ -105,6 +105,10 @@ LoadedPrior prior_of(RunCommand const& command, PipelineConfig const& config) {
     loaded.warnings.emplace_back(
         "nobody looks for the prior's objects, so nothing is learnt of them: set detector.kind");
   }
+  if (loaded.prior.objects.empty() && config.detector.kind != DetectorKind::kNone) {
+    loaded.warnings.emplace_back(
+        "the detector has nothing to look for: tell which objects are there with --prior");
+  }
   return loaded;
 }
 

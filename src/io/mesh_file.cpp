@@ -268,7 +268,8 @@ LoadedMesh read_mesh(fs::path const& path, LengthUnit unit) {
   try {
     Assimp::Importer importer;
     TriangleMesh const joined = SceneJoin(import(importer, path), metres_per(unit)).mesh();
-    LoadedMesh loaded{without_flat_triangles(joined), count_boundary_edges(joined.triangles)};
+    LoadedMesh loaded{without_flat_triangles(joined), 0};
+    loaded.boundary_edges = count_boundary_edges(loaded.mesh.triangles);
     if (loaded.mesh.triangles.empty()) {
       throw std::invalid_argument("has no triangles; a model needs faces");
     }

@@ -12,7 +12,6 @@ namespace credo {
 struct LoadedMesh {
   TriangleMesh mesh;
   /// Edges that do not have exactly two triangles turning opposite ways along them; 0 = closed.
-  /// Triangles of no area count here, though the mesh is without them: they close seams.
   std::size_t boundary_edges = 0;
 };
 

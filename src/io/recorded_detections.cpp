@@ -115,6 +115,19 @@ Eigen::Quaterniond orientation_of(Value const& value) {
   return orientation;
 }
 
+/// Beyond these, sums and differences of poses have no digits left.
+constexpr double kMaxPosition_m = 1e4;
+constexpr double kMinDeviation = 1e-6;
+constexpr double kMaxDeviation = 1e3;
+
+Eigen::Vector3d position_of(Value const& value) {
+  Eigen::Vector3d const position(numbers_of<3>(value).data());
+  if (position.cwiseAbs().maxCoeff() > kMaxPosition_m) {
+    refuse(value.where, "must be within 10000 m");
+  }
+  return position;
+}
+
 Matrix6d covariance_of(Value const& value) {
   auto const numbers = numbers_of<36>(value);
   Matrix6d const read =
@@ -124,6 +137,12 @@ Matrix6d covariance_of(Value const& value) {
   if (!(off <= 1e-6 * read.cwiseAbs().maxCoeff()) ||
       covariance.llt().info() != Eigen::ComputationInfo::Success) {
     refuse(value.where, "must be symmetric and positive definite");
+  }
+  auto const variances = covariance.diagonal().array();
+  // A little less than the square, which may be rounded.
+  if (variances.minCoeff() < 0.999 * kMinDeviation * kMinDeviation ||
+      variances.maxCoeff() > kMaxDeviation * kMaxDeviation) {
+    refuse(value.where, "must have standard deviations in [1e-6, 1000] m and rad");
   }
   return covariance;
 }
@@ -141,9 +160,8 @@ Detection detection_of(Value const& value) {
       {"type", "position", "orientation_xyzw", "covariance", "score", "visible_fraction"});
   Detection detection;
   detection.type = type_of(value.at("type"));
-  auto const position = numbers_of<3>(value.at("position"));
   detection.pose_camera.mean =
-      Se3(orientation_of(value.at("orientation_xyzw")), Eigen::Vector3d(position.data()));
+      Se3(orientation_of(value.at("orientation_xyzw")), position_of(value.at("position")));
   detection.pose_camera.covariance = covariance_of(value.at("covariance"));
   detection.score = number_of(value.at("score"));
   if (value.has("visible_fraction")) {
@@ -205,20 +223,9 @@ RecordedDetector::RecordedDetector(std::filesystem::path const& path) {
 }
 
 std::vector<Detection> RecordedDetector::detect(Frame const& frame,
-                                                std::vector<DetectionRequest> const& requests) {
+                                                std::vector<DetectionRequest> const& /*requests*/) {
   auto const found = by_frame_.find(frame.index);
-  if (found == by_frame_.end()) {
-    return {};
-  }
-  auto const is_asked_for = [&](Detection const& detection) {
-    return std::any_of(requests.begin(), requests.end(), [&](DetectionRequest const& request) {
-      return request.type == detection.type;
-    });
-  };
-  std::vector<Detection> detections;
-  std::copy_if(found->second.begin(), found->second.end(), std::back_inserter(detections),
-               is_asked_for);
-  return detections;
+  return found != by_frame_.end() ? found->second : std::vector<Detection>{};
 }
 
 }  // namespace credo

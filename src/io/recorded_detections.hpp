@@ -19,8 +19,8 @@ public:
   /// Reads and checks the whole file. Throws InputError with the line and the key of what is wrong.
   explicit RecordedDetector(std::filesystem::path const& path);
 
-  /// The frame's detections of the types that are asked for, in the order of the file. Neither the
-  /// picture nor the expected poses play a part.
+  /// All of the frame's detections in the order of the file, also of types that nobody asks for:
+  /// the gate tells of them, and a mistyped type is not lost in silence. The picture plays no part.
   std::vector<Detection> detect(Frame const& frame,
                                 std::vector<DetectionRequest> const& requests) override;
 

@@ -177,5 +177,30 @@ TEST_F(BadPriors, APriorThatIsNotThere) {
   EXPECT_EQ(error(), "credo: /prior.yaml: cannot be read\n");
 }
 
+TEST_F(BadPriors, AnIdWithALineBreak) {
+  write_prior(
+      "{id: \"a\\nb\", model: table, position: [2, 0, 0], sigma_position_m: 0.05, "
+      "sigma_rotation_rad: 0.1}");
+  EXPECT_EQ(error(),
+            "credo: /prior.yaml: objects[0]: id has a line break or another control character\n");
+}
+
+TEST_F(BadPriors, ADetectorWithNothingToLookForIsAWarning) {
+  write_text(folder_ / "prior.yaml", "objects: []\n");
+  Ended const ended = run({"--set", "detector.kind=sim"});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_THAT(ended.err, StartsWith("warning: the detector has nothing to look for: tell which "
+                                    "objects are there with --prior\n"));
+}
+
+// Told as a name and as a path, one file is one model.
+TEST_F(BadPriors, OneModelMayBeToldInTwoWays) {
+  write_text(folder_ / "thing.yaml", "name: thing\nprimitive: {box: [0.1, 0.1, 0.1]}\n");
+  std::string const rest =
+      ", position: [2, 0, 0], sigma_position_m: 0.05, sigma_rotation_rad: 0.1}";
+  write_prior("{id: a, model: thing" + rest + "\n  - {id: b, model: ./thing.yaml" + rest);
+  EXPECT_EQ(run({"--set", "detector.kind=sim"}).code, 0);
+}
+
 }  // namespace
 }  // namespace credo::test

@@ -192,6 +192,20 @@ TEST(KnownObjects, ADetectionOutOfTheGateChangesNothingAndIsTold) {
   EXPECT_EQ(beliefs(folder / "strays")[3]["objects"][1]["evidence"], "not_seen");
 }
 
+TEST(KnownObjects, AMistypedTypeIsToldAndNotLost) {
+  TempFolder const folder;
+  Scene scene = project_scene("box-on-table");
+  scene.things[static_cast<std::size_t>(position_of(scene, "table"))].type = "tabel";
+  Recording recording(folder / "typo.jsonl", scene);
+  recording.frame(0).sees("table").sees("box").finish();
+  Ended const ended = credo(with(box_on_table(folder / "out", project_prior("box-on-table")),
+                                 with(recorded(folder / "typo.jsonl"), {"--frames", "1"})));
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_THAT(ended.err, HasSubstr("frame 0: a tabel detected at (2.00, 0.00, 0.00) m is no object "
+                                   "of the belief"));
+  EXPECT_THAT(ended.out, HasSubstr("1 detections taken, 1 refused (1 of no object)"));
+}
+
 // Thesis 4.4: "points on the table that were slightly outside of the detected table pose".
 TEST(KnownObjects, WhatALowTableLeavesOverIsStuffAndGoesAgain) {
   TempFolder const folder;

@@ -105,7 +105,7 @@ TEST_F(RecordedDetectionsTest, TheVisibleFractionMayBeGiven) {
   EXPECT_EQ(found[0].score, -3.0);
 }
 
-TEST_F(RecordedDetectionsTest, FindsWhatIsAskedForInTheOrderOfTheFile) {
+TEST_F(RecordedDetectionsTest, FindsAllOfAFrameInTheOrderOfTheFile) {
   std::string const text = line("3", detection("dog")) + "\n \r\n" +
                            line("0", detection("cat") + "," + detection("ape") + "," +
                                          detection("dog") + "," + detection("cat"));
@@ -116,10 +116,20 @@ TEST_F(RecordedDetectionsTest, FindsWhatIsAskedForInTheOrderOfTheFile) {
     }
     return found;
   };
-  EXPECT_THAT(types(0, {"dog", "cat", "cat"}), testing::ElementsAre("cat", "dog", "cat"));
-  EXPECT_THAT(types(0, {}), testing::IsEmpty());
+  EXPECT_THAT(types(0, {"dog", "cat"}), testing::ElementsAre("cat", "ape", "dog", "cat"))
+      << "nobody asks for an ape, and the gate will tell";
   EXPECT_THAT(types(3, {"cat", "dog"}), testing::ElementsAre("dog"));
   EXPECT_THAT(types(1, {"cat", "dog"}), testing::IsEmpty());
+}
+
+TEST_F(RecordedDetectionsTest, NumbersWithoutMeasureAreRefused) {
+  EXPECT_EQ(detection_error(with(detection(), "[0.1,-0.2,1.5]", "[0.1,1e5,1.5]")),
+            ".position: must be within 10000 m");
+  for (char const* const wrong : {"1e200", "1e-320", "1e-13"}) {
+    EXPECT_EQ(detection_error(with(detection(), "0,6]", std::string("0,") + wrong + "]")),
+              ".covariance: must have standard deviations in [1e-6, 1000] m and rad");
+  }
+  EXPECT_EQ(detect(line("0", with(detection(), "0,6]", "0,1e-12]")), 0, {"cat"}).size(), 1U);
 }
 
 TEST_F(RecordedDetectionsTest, NothingWasFoundInAnEmptyFile) {
