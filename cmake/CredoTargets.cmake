@@ -6,7 +6,9 @@ endif()
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 find_program(CREDO_CCACHE ccache)
 if(CREDO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CREDO_CCACHE})
+  # Paths below the checkout count as relative: another checkout of the same files finds them compiled.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
+                                  CCACHE_NOHASHDIR=1 ${CREDO_CCACHE})
 endif()
 
 function(credo_target_options target)
@@ -43,10 +45,6 @@ function(credo_test name)
   add_executable(${name} ${ARG_SOURCES})
   credo_target_options(${name})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock_main)
-  # Where the recordings lie, if they are there: beside the checkout.
-  target_compile_definitions(${name} PRIVATE
-    CREDO_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-    CREDO_DATA_DIR="${PROJECT_SOURCE_DIR}/../shared/data")
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} credo_test_paths GTest::gmock_main)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()

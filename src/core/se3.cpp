@@ -12,12 +12,6 @@ namespace {
 /// Below this a quotient of small numbers loses more digits than a series' next term.
 constexpr double kSmallAngle_rad = 1e-3;
 
-Eigen::Matrix3d cross_matrix(Eigen::Vector3d const& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 }  // namespace
 
 Se3::Se3(Eigen::Quaterniond const& rotation, Eigen::Vector3d translation_m)
@@ -61,6 +55,12 @@ Se3 Se3::inverse() const {
 
 Se3 Se3::operator*(Se3 const& other) const {
   return {rotation_ * other.rotation_, rotation_ * other.translation_m_ + translation_m_};
+}
+
+Eigen::Matrix3d cross_matrix(Eigen::Vector3d const& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
 }
 
 Eigen::Quaterniond so3_exp(Eigen::Vector3d const& phi_rad) {

@@ -33,6 +33,8 @@ private:
   Eigen::Vector3d translation_m_ = Eigen::Vector3d::Zero();
 };
 
+/// The matrix of v x, that takes w to the cross product v x w.
+Eigen::Matrix3d cross_matrix(Eigen::Vector3d const& v);
 /// Rotation by |phi| radians about phi; exact series near zero.
 Eigen::Quaterniond so3_exp(Eigen::Vector3d const& phi_rad);
 /// Rotation vector of least length, |phi| <= pi; inverse of so3_exp for |phi| < pi.

@@ -10,12 +10,6 @@
 namespace credo {
 namespace {
 
-Eigen::Matrix3d cross_matrix(Eigen::Vector3d const& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 /// What does not move when the model turns in its symmetry.
 Eigen::Vector3d centre_of(Symmetry const& symmetry) {
   return symmetry.axis ? symmetry.axis->point_m : Eigen::Vector3d(0, 0, 0);

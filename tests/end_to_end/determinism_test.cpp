@@ -16,6 +16,7 @@
 #include "io/dataset.hpp"
 #include "sim/scene.hpp"
 #include "sim/sim_source.hpp"
+#include "support/paths.hpp"
 #include "support/recordings.hpp"
 
 namespace credo {
@@ -86,7 +87,7 @@ TEST(Determinism, KnownObjectsAndANoisyDetector) {
         std::string("sim:") + name, frames,
         specified_lines(std::move(source), frames, {}, known.prior,
                         test::known_objects(known, detector)),
-        {"--prior", std::string(CREDO_SOURCE_DIR) + "/scenes/priors/" + name + ".yaml", "--set",
+        {"--prior", test::source_folder().string() + "/scenes/priors/" + name + ".yaml", "--set",
          "detector.kind=sim", "--set", "detector.sim.miss_probability=0.2", "--set",
          "detector.sim.false_alarms_per_frame=1", "--set", "detector.sim.seed=7"});
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "end_to_end/program.hpp"
+#include "support/paths.hpp"
 
 namespace credo {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::Ended;
 
-fs::path const kRoot = CREDO_SOURCE_DIR;
+fs::path const kRoot = test::source_folder();
 
 /// A file of the project is what the program prints; told by the first line that is not.
 void expect_printed(fs::path const& file, std::vector<std::string> const& arguments) {

@@ -13,6 +13,7 @@
 #include "end_to_end/contract.hpp"
 #include "end_to_end/known_scene.hpp"
 #include "end_to_end/program.hpp"
+#include "support/paths.hpp"
 
 namespace credo::test {
 namespace {
@@ -37,7 +38,7 @@ std::string digits(double probability) {
 
 /// scenes/bottle-moves.yaml with a ball on the floor that is taken away after the first frame.
 std::string bottle_and_ball() {
-  std::string scene = read_text(std::string(CREDO_SOURCE_DIR) + "/scenes/bottle-moves.yaml");
+  std::string scene = read_text(source_folder().string() + "/scenes/bottle-moves.yaml");
   std::string const events = "events:\n";
   scene.replace(scene.find(events), events.size(),
                 "  - {name: ball, shape: sphere, size_m: [0.12], position_m: [1.7, -1, 0]}\n" +
@@ -52,8 +53,8 @@ protected:
     write_text(folder_ / "scene.yaml", bottle_and_ball());
     Ended const ended =
         credo({"run", "--source", "sim:" + (folder_ / "scene.yaml").string(), "--config",
-               std::string(CREDO_SOURCE_DIR) + "/config/" + preset + ".yaml", "--prior",
-               std::string(CREDO_SOURCE_DIR) + "/scenes/priors/bottle-moves.yaml", "--out",
+               source_folder().string() + "/config/" + preset + ".yaml", "--prior",
+               source_folder().string() + "/scenes/priors/bottle-moves.yaml", "--out",
                (folder_ / "out").string(), "--set", "detector.kind=sim", "--set",
                "detector.sim.sigma_position_m=0", "--set", "detector.sim.sigma_rotation_rad=0"});
     EXPECT_EQ(ended.code, 0) << ended.err;

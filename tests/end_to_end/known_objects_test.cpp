@@ -18,6 +18,7 @@
 #include "io/image.hpp"
 #include "sim/camera_path.hpp"
 #include "sim/scene_time.hpp"
+#include "support/paths.hpp"
 #include "support/recordings.hpp"
 
 namespace credo::test {
@@ -43,7 +44,7 @@ std::vector<std::string> box_on_table(fs::path const& out, fs::path const& prior
           "--out", out.string(), "--dump",           "labels"};
 }
 fs::path project_prior(std::string const& name) {
-  return fs::path(CREDO_SOURCE_DIR) / "scenes/priors" / (name + ".yaml");
+  return source_folder() / "scenes/priors" / (name + ".yaml");
 }
 
 std::vector<std::string> const kExactDetector = {"--set", "detector.kind=sim",

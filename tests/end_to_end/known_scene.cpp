@@ -16,6 +16,7 @@
 #include "sim/sim_detector.hpp"
 #include "sim/sim_source.hpp"
 #include "sim/thing.hpp"
+#include "support/paths.hpp"
 
 namespace credo::test {
 namespace {
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path project() {
-  return CREDO_SOURCE_DIR;
+  return source_folder();
 }
 
 }  // namespace

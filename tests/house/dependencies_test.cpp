@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "support/paths.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,7 +71,7 @@ std::set<std::string> const& rooms() {
 }
 
 TEST(Dependencies, EachRoomKnowsOnlyTheRoomsBelowIt) {
-  auto const includes = includes_of(fs::path(CREDO_SOURCE_DIR) / "src");
+  auto const includes = includes_of(credo::test::source_folder() / "src");
   ASSERT_GT(includes.size(), 100U);
   for (Include const& include : includes) {
     std::string const from = include.file.begin()->string();
@@ -83,7 +85,7 @@ TEST(Dependencies, EachRoomKnowsOnlyTheRoomsBelowIt) {
 }
 
 TEST(Dependencies, AStageNeverIncludesAnotherStage) {
-  for (Include const& include : includes_of(fs::path(CREDO_SOURCE_DIR) / "src")) {
+  for (Include const& include : includes_of(credo::test::source_folder() / "src")) {
     if (room_of(include.file).starts_with("stages/") && include.target.starts_with("stages/")) {
       EXPECT_EQ(room_of(include.file), room_of(include.target)) << include.file;
     }
@@ -108,7 +110,7 @@ TEST(Dependencies, LibrariesStayInTheirRooms) {
       {"turbojpeg.h", {"io"}, false},
       {"nlohmann/", {"io"}, true},
   };
-  for (Include const& include : includes_of(fs::path(CREDO_SOURCE_DIR) / "src")) {
+  for (Include const& include : includes_of(credo::test::source_folder() / "src")) {
     for (Rule const& rule : rules) {
       if (!include.target.starts_with(rule.prefix)) {
         continue;
@@ -122,7 +124,7 @@ TEST(Dependencies, LibrariesStayInTheirRooms) {
 
 // A suite whose folder no list names is never built, and nobody misses it.
 TEST(Dependencies, EverySuiteIsBuilt) {
-  fs::path const tests = fs::path(CREDO_SOURCE_DIR) / "tests";
+  fs::path const tests = credo::test::source_folder() / "tests";
   for (auto const& entry : fs::recursive_directory_iterator(tests)) {
     fs::path const folder = entry.path().parent_path();
     if (entry.path().filename() == "CMakeLists.txt" && folder != tests) {
@@ -137,7 +139,8 @@ TEST(Dependencies, EverySuiteIsBuilt) {
 }
 
 TEST(Dependencies, EverySourceOfASuiteIsBuilt) {
-  for (auto const& entry : fs::recursive_directory_iterator(fs::path(CREDO_SOURCE_DIR) / "tests")) {
+  for (auto const& entry :
+       fs::recursive_directory_iterator(credo::test::source_folder() / "tests")) {
     std::string const name = entry.path().filename().string();
     if (name.ends_with("_test.cpp")) {
       std::ifstream file(entry.path().parent_path() / "CMakeLists.txt");
@@ -152,7 +155,8 @@ TEST(Dependencies, EverySourceOfASuiteIsBuilt) {
 
 TEST(Dependencies, FilesStayReadable) {
   for (char const* room : {"src", "tools", "tests", "bench"}) {
-    for (auto const& entry : fs::recursive_directory_iterator(fs::path(CREDO_SOURCE_DIR) / room)) {
+    for (auto const& entry :
+         fs::recursive_directory_iterator(credo::test::source_folder() / room)) {
       auto const extension = entry.path().extension();
       if (extension != ".hpp" && extension != ".cpp") {
         continue;

@@ -13,6 +13,7 @@
 #include "config/yaml_config.hpp"
 #include "core/error.hpp"
 #include "sim/scenes.hpp"
+#include "support/paths.hpp"
 #include "support/temp_folder.hpp"
 
 namespace credo::test {
@@ -208,7 +209,7 @@ TEST(Scene, IsFoundByNameOrFile) {
 
 TEST(Scene, EveryOneOfTheProjectIsGood) {
   std::set<std::string> names;
-  for (auto const& entry : fs::directory_iterator(fs::path(CREDO_SOURCE_DIR) / "scenes")) {
+  for (auto const& entry : fs::directory_iterator(source_folder() / "scenes")) {
     if (entry.is_directory()) {
       continue;  // priors
     }

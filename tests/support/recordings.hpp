@@ -2,18 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
-namespace credo::test {
-
-/// Folder of the real recordings: $CREDO_DATA, else beside the checkout.
-inline std::filesystem::path recordings() {
-  char const* given = std::getenv("CREDO_DATA");
-  return given != nullptr ? given : CREDO_DATA_DIR;
-}
-
-}  // namespace credo::test
+#include "support/paths.hpp"
 
 /// Ends the test as skipped, with the reason, where a recording is not on this machine.
 #define CREDO_REQUIRE_RECORDING(name)                                         \
