@@ -47,6 +47,7 @@ docs: build      ## config/default.yaml and docs/config.md, as the program print
 lint: deps       ## clang-format and clang-tidy, findings are errors
 	clang-format --dry-run --Werror $(SOURCES)
 	cmake --preset $(PRESET) --log-level=WARNING
+	cmake --build --preset $(PRESET) --target credo_dds  # for the headers made of IDL
 	run-clang-tidy -quiet -j2 -checks='$(TIDY_CHECKS)' -p $(BUILD) '/(src|tools)/.*\.cpp$$'
 
 sanitize: deps   ## the suites where memory is at stake, under ASan and UBSan

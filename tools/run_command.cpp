@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
@@ -10,7 +12,9 @@
 #include <iostream>
 #include <iterator>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -18,6 +22,7 @@
 #include "config/yaml_config.hpp"
 #include "config_arguments.hpp"
 #include "core/error.hpp"
+#include "dds/belief_publisher.hpp"
 #include "geometry/outline.hpp"
 #include "graph/pipeline.hpp"
 #include "graph/read_ahead.hpp"
@@ -129,6 +134,41 @@ BeliefPtr first_belief(ReadAhead& source, WorldLevel const& level, Prior const& 
   return std::make_shared<BeliefState const>(prior_belief(prior, T_world_camera));
 }
 
+std::unique_ptr<BeliefPublisher> publisher_of(RunCommand const& command, DdsConfig const& config) {
+  if (command.no_dds) {
+    return nullptr;
+  }
+  try {
+    auto publisher = std::make_unique<BeliefPublisher>(config);
+    publisher->tell(LifecycleState::kRunning, command.source);
+    return publisher;
+  } catch (InputError const& error) {
+    throw InputError(std::string(error.what()) + "; --no-dds runs without");
+  }
+}
+
+std::string dds_summary(BeliefPublisher const& publisher) {
+  return publisher.dropped() > 0
+             ? fmt::format("DDS: {} samples dropped, its buffers were full\n", publisher.dropped())
+             : "";
+}
+
+/// Stays on DDS so that who comes after the last frame finds the belief.
+void linger(RunCommand const& command, BeliefPublisher* publisher, std::stop_token const& stop) {
+  if (publisher == nullptr) {
+    return;
+  }
+  if (command.linger_s > 0.0 && !stop.stop_requested()) {
+    publisher->tell(LifecycleState::kLingering, command.source);
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any never;
+    never.wait_for(lock, stop, std::chrono::duration<double>(command.linger_s),
+                   [] { return false; });
+  }
+  publisher->tell(LifecycleState::kStopping, command.source);
+}
+
 int run(RunCommand const& command) {
   check_usage(command);
   log_to_stderr();
@@ -143,6 +183,7 @@ int run(RunCommand const& command) {
   Workers workers(config.graph.threads);
   WorldLevel const level = level_of(source, config, workers);
   BeliefPtr const prior_world = first_belief(source, level, loaded.prior);
+  std::unique_ptr<BeliefPublisher> const publisher = publisher_of(command, config.dds);
 
   // Nothing is written before all that can be checked has been, and bad input is told in one line.
   Dump const dump = dump_of(command);
@@ -153,10 +194,10 @@ int run(RunCommand const& command) {
   log_start(loaded.warnings, level);
   Outlines const outlines = outlines_of(known->models);
   Progress progress(std::min(frame_count, command.frames.value_or(frame_count)));
-  RunReport const report =
-      run_pipeline(source, make_stages(config, level, loaded.prior, known),
-                   run_output(folder.has_value() ? &*folder : nullptr, dump, outlines, progress),
-                   config.graph, prior_world, workers, signals.token());
+  RunReport const report = run_pipeline(source, make_stages(config, level, loaded.prior, known),
+                                        run_output(folder.has_value() ? &*folder : nullptr,
+                                                   publisher.get(), dump, outlines, progress),
+                                        config.graph, prior_world, workers, signals.token());
   progress.finish();
   if (folder.has_value()) {
     folder->write_metrics(report.metrics);
@@ -164,7 +205,9 @@ int run(RunCommand const& command) {
   if (report.error != nullptr) {
     std::rethrow_exception(report.error);
   }
-  std::cout << summary_table(report.metrics) << progress.detection_summary();
+  std::cout << summary_table(report.metrics) << progress.detection_summary()
+            << (publisher != nullptr ? dds_summary(*publisher) : "") << std::flush;
+  linger(command, publisher.get(), signals.token());
   return 0;
 }
 

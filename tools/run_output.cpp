@@ -18,7 +18,8 @@ struct Files {
   std::string line;
 };
 
-Files files_of(FrameResult const& result, Dump const& dump, Outlines const& outlines) {
+Files files_of(FrameResult const& result, BeliefSummary const& belief, Dump const& dump,
+               Outlines const& outlines) {
   Files files;
   files.frame = result.frame->index;
   if (dump.labels) {
@@ -28,7 +29,7 @@ Files files_of(FrameResult const& result, Dump const& dump, Outlines const& outl
     files.picture =
         encode_png_rgb(draw_picture(*result.frame, *result.segmentation, *result.belief, outlines));
   }
-  files.line = belief_json(*result.belief);
+  files.line = belief_json(belief);
   return files;
 }
 
@@ -44,16 +45,21 @@ void write(RunFolder& folder, Files const& files, Dump const& dump) {
 
 }  // namespace
 
-RunSink run_output(RunFolder* folder, Dump const& dump, Outlines const& outlines,
-                   Progress& progress) {
+RunSink run_output(RunFolder* folder, BeliefPublisher* publisher, Dump const& dump,
+                   Outlines const& outlines, Progress& progress) {
   RunSink sink;
   sink.encode = [=, &outlines, &progress](FrameResult const& result) -> Delivery {
-    if (folder == nullptr) {
-      return [&progress, result] { progress.show(result); };
-    }
-    auto const files = std::make_shared<Files const>(files_of(result, dump, outlines));
+    auto const belief = std::make_shared<BeliefSummary const>(summary_of(*result.belief));
+    auto const files =
+        folder != nullptr ? std::make_shared<Files const>(files_of(result, *belief, dump, outlines))
+                          : nullptr;
     return [=, &progress] {
-      write(*folder, *files, dump);
+      if (folder != nullptr) {
+        write(*folder, *files, dump);
+      }
+      if (publisher != nullptr) {
+        publisher->publish(*belief);
+      }
       progress.show(result);
     };
   };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/outline.hpp"
+#include "dds/belief_publisher.hpp"
 #include "graph/run_sink.hpp"
 #include "io/run_folder.hpp"
 #include "progress.hpp"
@@ -13,10 +14,11 @@ struct Dump {
   bool pictures = false;
 };
 
-/// A sink that writes into `folder` where there is one and shows `progress`; both, and `outlines`
-/// (known objects, for pictures), outlive it. A
-/// frame's images are written before its line, so that whoever reads the line finds them.
-RunSink run_output(RunFolder* folder, Dump const& dump, Outlines const& outlines,
-                   Progress& progress);
+/// A sink that writes into `folder` and publishes on DDS where these are not null, and shows
+/// `progress`; all three, and `outlines` (known objects, for pictures), outlive it. A frame's
+/// images are written before its line, and that before the belief is published, so that whoever
+/// sees one finds the other.
+RunSink run_output(RunFolder* folder, BeliefPublisher* publisher, Dump const& dump,
+                   Outlines const& outlines, Progress& progress);
 
 }  // namespace credo

@@ -53,6 +53,7 @@ FieldList fields(PipelineConfig& config) {
       section("clustering", fields(config.clustering), "stuff: what is neither plane nor object"),
       section("fusion", fields(config.fusion), "segmentations into the belief"),
       section("graph", fields(config.graph), "how the stages run side by side"),
+      section("dds", fields(config.dds), "where the belief is published, and looked for"),
   };
 }
 

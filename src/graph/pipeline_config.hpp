@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/capture_config.hpp"
+#include "core/dds_config.hpp"
 #include "core/detector_config.hpp"
 #include "core/fields.hpp"
 #include "graph/bounded_queue.hpp"
@@ -68,6 +69,7 @@ struct PipelineConfig {
   ClusteringConfig clustering;
   FusionConfig fusion;
   GraphConfig graph;
+  DdsConfig dds;
 };
 FieldList fields(PipelineConfig& config);
 

@@ -32,43 +32,39 @@ Json label_json(std::optional<LabelCode> const& label) {
   return label ? Json(*label) : Json(nullptr);
 }
 
-Json floor_json(FloorBelief const& floor) {
+Json floor_json(FloorSummary const& floor) {
   return {{"normal", numbers(floor.normal)},
           {"height_m", floor.height_m},
-          {"points", floor.points->size()}};
+          {"points", floor.point_count}};
 }
 
-Json wall_json(WallBelief const& wall) {
+Json wall_json(WallSummary const& wall) {
   return {{"id", wall.id},
           {"segment", Json::array({numbers(wall.segment_start_m), numbers(wall.segment_end_m)})},
-          {"normal", numbers(wall.plane_world.normal)},
-          {"points", wall.points->size()},
+          {"normal", numbers(wall.normal)},
+          {"points", wall.point_count},
           {"label", label_json(wall.label)}};
 }
 
-Json object_json(ObjectBelief const& object) {
-  PoseDistribution const& pose = object.pose_world;
-  // Symmetric to the last bit, whatever rounding left.
-  Matrix6d const covariance = 0.5 * (pose.covariance + pose.covariance.transpose());
+Json object_json(ObjectSummary const& object) {
   return {{"id", object.id},
           {"type", object.type},
-          {"probability", probability_of(object.log_odds)},
-          {"position", numbers(pose.mean.translation())},
-          {"orientation_xyzw", numbers(pose.mean.rotation().coeffs())},
-          {"covariance", rows(covariance)},
+          {"probability", object.probability},
+          {"position", numbers(object.position_m)},
+          {"orientation_xyzw", numbers(object.orientation.coeffs())},
+          {"covariance", rows(object.covariance)},
           {"evidence", to_string(object.evidence)},
           {"label", label_json(object.label)}};
 }
 
-Json stuff_json(StuffBelief const& stuff) {
-  StuffCluster const& latest = stuff.latest();
+Json stuff_json(StuffSummary const& stuff) {
   return {{"id", stuff.id},
-          {"probability", probability_of(stuff.log_odds)},
+          {"probability", stuff.probability},
           {"history", stuff.history_count},
-          {"points", latest.pixel_count},
-          {"centroid", numbers(latest.centroid_world)},
-          {"min", numbers(latest.bounds_world.min())},
-          {"max", numbers(latest.bounds_world.max())},
+          {"points", stuff.pixel_count},
+          {"centroid", numbers(stuff.centroid_m)},
+          {"min", numbers(stuff.min_m)},
+          {"max", numbers(stuff.max_m)},
           {"evidence", to_string(stuff.evidence)},
           {"label", label_json(stuff.label)}};
 }
@@ -84,12 +80,12 @@ Json list(std::vector<T> const& values, ToJson const& to_json) {
 
 }  // namespace
 
-std::string belief_json(BeliefState const& belief) {
+std::string belief_json(BeliefSummary const& belief) {
   Json const line = {{"schema", 1},
                      {"frame", number(belief.frame)},
                      {"stamp_ns", belief.stamp_ns},
                      {"segmented_with", number(belief.segmented_with)},
-                     {"T_world_camera", rows(belief.T_world_camera.matrix())},
+                     {"T_world_camera", rows(belief.T_world_camera)},
                      {"floor", belief.floor ? floor_json(*belief.floor) : Json(nullptr)},
                      {"walls", list(belief.walls, wall_json)},
                      {"objects", list(belief.objects, object_json)},

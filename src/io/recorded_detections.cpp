@@ -121,7 +121,7 @@ constexpr double kMinDeviation = 1e-6;
 constexpr double kMaxDeviation = 1e3;
 
 Eigen::Vector3d position_of(Value const& value) {
-  Eigen::Vector3d const position(numbers_of<3>(value).data());
+  Eigen::Vector3d position(numbers_of<3>(value).data());
   if (position.cwiseAbs().maxCoeff() > kMaxPosition_m) {
     refuse(value.where, "must be within 10000 m");
   }

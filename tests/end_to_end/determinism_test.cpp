@@ -34,7 +34,9 @@ std::vector<std::string> specified_lines(
   auto const prior = std::make_shared<BeliefState const>(prior_belief);
   std::vector<std::string> lines;
   RunSink const sink = {[&](FrameResult const& result) -> Delivery {
-                          return [&lines, result] { lines.push_back(belief_json(*result.belief)); };
+                          return [&lines, result] {
+                            lines.push_back(belief_json(summary_of(*result.belief)));
+                          };
                         },
                         [](FrameFailure const&) {}};
   run_once(source, make_stages(config, level, {}, known), sink, config.graph, prior, {});

@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 TEST(BeliefJson, OfAnEmptyBelief) {
-  EXPECT_EQ(belief_json(BeliefState()),
+  EXPECT_EQ(belief_json(BeliefSummary()),
             R"({"schema":1,"frame":-1,"stamp_ns":0,"segmented_with":-1,)"
             R"("T_world_camera":[1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0],)"
             R"("floor":null,"walls":[],"objects":[],"stuff":[]})");
@@ -24,7 +24,7 @@ TEST(BeliefJson, OfAnEmptyBelief) {
 
 TEST(BeliefJson, IsTheFormatOfTheFile) {
   EXPECT_EQ(
-      belief_json(belief_of_a_kitchen()),
+      belief_json(summary_of(belief_of_a_kitchen())),
       R"({"schema":1,"frame":3,"stamp_ns":100000000,"segmented_with":2,)"
       R"("T_world_camera":[1.0,0.0,0.0,1.0,0.0,1.0,0.0,2.0,0.0,0.0,1.0,1.5,0.0,0.0,0.0,1.0],)"
       R"("floor":{"normal":[0.0,0.0,1.0],"height_m":0.25,"points":2},)"
@@ -46,7 +46,7 @@ TEST(BeliefJson, NumbersReadBackToTheBit) {
   auto cluster = std::make_shared<StuffCluster>(belief.stuff[0].latest());
   cluster->centroid_world = {0.1F, -1.0F / 3.0F, 1e-30F};
   belief.stuff[0].recent_clusters = {cluster};
-  Json const json = Json::parse(belief_json(belief));
+  Json const json = Json::parse(belief_json(summary_of(belief)));
   EXPECT_EQ(json["floor"]["height_m"].get<double>(), belief.floor->height_m);
   EXPECT_EQ(json["stamp_ns"].get<std::int64_t>(), belief.stamp_ns);
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -65,7 +65,7 @@ TEST(BeliefJson, PosesKeepTheConventions) {
   Matrix6d& covariance = belief.objects[0].pose_world.covariance;
   covariance(0, 5) = 0.25 + 1e-12;
   covariance(5, 0) = 0.25;
-  Json const json = Json::parse(belief_json(belief));
+  Json const json = Json::parse(belief_json(summary_of(belief)));
 
   auto const matrix = json["T_world_camera"].get<std::vector<double>>();
   ASSERT_EQ(matrix.size(), 16U);
@@ -90,14 +90,14 @@ TEST(BeliefJson, CertaintyAndEveryEvidenceHaveTheirWords) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   belief.objects[0].log_odds = -kInfinity;
   belief.stuff[0].log_odds = kInfinity;
-  Json json = Json::parse(belief_json(belief));
+  Json json = Json::parse(belief_json(summary_of(belief)));
   EXPECT_EQ(json["objects"][0]["probability"], 0.0);
   EXPECT_EQ(json["stuff"][0]["probability"], 1.0);
   std::vector<std::string> words;
   for (Evidence const evidence : {Evidence::kSeen, Evidence::kSeenThrough, Evidence::kOccluded,
                                   Evidence::kOutOfView, Evidence::kNotSeen}) {
     belief.stuff[0].evidence = evidence;
-    words.push_back(Json::parse(belief_json(belief))["stuff"][0]["evidence"]);
+    words.push_back(Json::parse(belief_json(summary_of(belief)))["stuff"][0]["evidence"]);
   }
   EXPECT_THAT(words,
               testing::ElementsAre("seen", "seen_through", "occluded", "out_of_view", "not_seen"));
@@ -108,11 +108,12 @@ TEST(BeliefJson, IdsOfAnyCharactersStayOneLineOfJson) {
   belief.objects[0].id =
       "a \"box\"\n\\ K\xC3\xBC"
       "che";
-  std::string const line = belief_json(belief);
+  std::string const line = belief_json(summary_of(belief));
   EXPECT_EQ(line.find('\n'), std::string::npos);
   EXPECT_EQ(Json::parse(line)["objects"][0]["id"], belief.objects[0].id);
   belief.objects[0].id = "Latin-1: \xFC";
-  EXPECT_EQ(Json::parse(belief_json(belief))["objects"][0]["id"], "Latin-1: \xEF\xBF\xBD");
+  EXPECT_EQ(Json::parse(belief_json(summary_of(belief)))["objects"][0]["id"],
+            "Latin-1: \xEF\xBF\xBD");
 }
 
 }  // namespace

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/belief.hpp"
+
+namespace credo {
+
+// The belief in numbers, without its points: what files and topics tell of it. World frame.
+
+struct FloorSummary {
+  /// Unit, up.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  double height_m = 0.0;
+  std::uint64_t point_count = 0;
+};
+
+struct WallSummary {
+  std::uint32_t id = 0;
+  Eigen::Vector2d segment_start_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d segment_end_m = Eigen::Vector2d::Zero();
+  /// Unit.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
+  std::uint64_t point_count = 0;
+  std::optional<LabelCode> label;
+};
+
+struct ObjectSummary {
+  std::string id;
+  std::string type;
+  double probability = 0.0;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  /// In the convention of boxplus; symmetric to the last bit.
+  Matrix6d covariance = Matrix6d::Zero();
+  Evidence evidence = Evidence::kNotSeen;
+  std::optional<LabelCode> label;
+};
+
+struct StuffSummary {
+  std::uint32_t id = 0;
+  double probability = 0.0;
+  std::uint64_t history_count = 0;
+  // Of the latest cluster.
+  std::uint64_t pixel_count = 0;
+  Eigen::Vector3f centroid_m = Eigen::Vector3f::Zero();
+  Eigen::Vector3f min_m = Eigen::Vector3f::Zero();
+  Eigen::Vector3f max_m = Eigen::Vector3f::Zero();
+  Evidence evidence = Evidence::kSeen;
+  std::optional<LabelCode> label;
+};
+
+struct BeliefSummary {
+  FrameIndex frame = kPriorFrame;
+  std::int64_t stamp_ns = 0;
+  FrameIndex segmented_with = kPriorFrame;
+  Eigen::Matrix4d T_world_camera = Eigen::Matrix4d::Identity();
+  std::optional<FloorSummary> floor;
+  std::vector<WallSummary> walls;
+  std::vector<ObjectSummary> objects;
+  std::vector<StuffSummary> stuff;
+};
+
+[[nodiscard]] BeliefSummary summary_of(BeliefState const& belief);
+
+}  // namespace credo

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/belief_summary.hpp"
+#include "core/dds_config.hpp"
+#include "dds/participant.hpp"
+
+namespace credo {
+
+enum class LifecycleState : std::uint8_t { kRunning, kLingering, kStopping };
+
+/// Puts the belief on DDS: <prefix>/belief after every frame and <prefix>/lifecycle, each the last
+/// one kept for whoever comes late (reliable, transient local). A reader that is slow or dead costs
+/// it samples, never this process its time. Gone from the readers' view with this object.
+class BeliefPublisher {
+public:
+  /// Throws InputError where DDS refuses (Participant).
+  explicit BeliefPublisher(DdsConfig const& config);
+
+  /// Called by one thread at a time.
+  void publish(BeliefSummary belief);
+  void tell(LifecycleState state, std::string detail);
+
+  /// Samples that DDS did not take at once, because its buffers were full.
+  [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
+
+private:
+  Participant participant_;
+  DdsEntity beliefs_;
+  DdsEntity lifecycle_;
+  std::uint64_t revision_ = 0;
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace credo

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "core/dds_config.hpp"
+#include "dds/entity.hpp"
+
+namespace credo {
+
+/// This process on a DDS domain: discovery pinned to the config's interface, sizes tuned for
+/// samples of megabytes. Where CYCLONEDDS_URI is set it says both instead.
+///
+/// One at a time for a domain in a process. Throws InputError where DDS refuses: an interface that
+/// is not there, a CYCLONEDDS_URI that is no configuration.
+class Participant {
+public:
+  explicit Participant(DdsConfig const& config);
+
+  [[nodiscard]] std::int32_t handle() const { return participant_.handle(); }
+  /// Of the config, or host and process.
+  [[nodiscard]] std::string const& source() const { return source_; }
+  [[nodiscard]] std::string topic(std::string const& name) const { return prefix_ + "/" + name; }
+  /// Of the config; may be empty.
+  [[nodiscard]] std::string const& partition() const { return partition_; }
+
+private:
+  // In this order: a domain goes last.
+  DdsEntity domain_;
+  DdsEntity participant_;
+  std::string source_;
+  std::string prefix_;
+  std::string partition_;
+};
+
+}  // namespace credo

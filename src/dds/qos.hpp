@@ -1,0 +1,45 @@
+#pragma once
+
+#include <dds/dds.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "dds/participant.hpp"
+
+namespace credo {
+
+struct DeleteQos {
+  void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
+};
+using Qos = std::unique_ptr<dds_qos_t, DeleteQos>;
+
+/// Reliable, the last sample of each instance kept for whoever comes late. A write never waits.
+inline Qos last_state_qos() {
+  Qos qos(dds_create_qos());
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+  return qos;
+}
+
+/// For a publisher or subscriber.
+inline Qos partition_qos(Participant const& participant) {
+  Qos qos(dds_create_qos());
+  if (!participant.partition().empty()) {
+    dds_qset_partition1(qos.get(), participant.partition().c_str());
+  }
+  return qos;
+}
+
+/// Takes over what a function of the C API returned. Throws std::runtime_error where that is an
+/// error.
+inline DdsEntity checked(dds_entity_t handle, std::string const& what) {
+  if (handle <= 0) {
+    throw std::runtime_error("DDS " + what + ": " + dds_strretcode(-handle));
+  }
+  return DdsEntity(handle);
+}
+
+}  // namespace credo

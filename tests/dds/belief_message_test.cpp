@@ -1,0 +1,51 @@
+#include "dds/belief_message.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "belief.h"
+#include "io/belief_json.hpp"
+#include "io/beliefs.hpp"
+
+namespace credo::test {
+namespace {
+
+// All that JSON tells of a belief is told on DDS, to the bit.
+TEST(BeliefMessage, TellsAllThatALineTells) {
+  for (BeliefState const& state : {belief_of_a_kitchen(), BeliefState()}) {
+    BeliefSummary const belief = summary_of(state);
+    BeliefMessage const message("robot-1", 7, belief);
+    EXPECT_STREQ(message.sample().source, "robot-1");
+    EXPECT_EQ(message.sample().revision, 7U);
+    EXPECT_EQ(belief_json(belief_in(message.sample())), belief_json(belief));
+  }
+}
+
+TEST(BeliefMessage, EachEvidenceHasItsWord) {
+  BeliefSummary belief = summary_of(belief_of_a_kitchen());
+  ASSERT_FALSE(belief.stuff.empty());
+  for (Evidence const evidence : {Evidence::kSeen, Evidence::kSeenThrough, Evidence::kOccluded,
+                                  Evidence::kOutOfView, Evidence::kNotSeen}) {
+    belief.stuff[0].evidence = evidence;
+    BeliefMessage const message("a", 1, belief);
+    EXPECT_EQ(belief_in(message.sample()).stuff[0].evidence, evidence);
+  }
+  BeliefMessage const seen("a", 1, belief);
+  credo_msg_Belief sample = seen.sample();
+  sample.stuff._buffer[0].evidence = static_cast<credo_msg_Evidence>(7);
+  EXPECT_THROW((void)belief_in(sample), std::runtime_error);
+}
+
+// Where its names lie is the message's own matter.
+TEST(BeliefMessage, OutlivesWhatItWasMadeOf) {
+  auto belief = std::make_unique<BeliefSummary>();
+  belief->objects.emplace_back().id = "a name that is too long to lie within a string";
+  std::string const expected = belief_json(*belief);
+  BeliefMessage const message("a source that is too long to lie within a string", 1, *belief);
+  belief.reset();
+  EXPECT_EQ(belief_json(belief_in(message.sample())), expected);
+}
+
+}  // namespace
+}  // namespace credo::test
