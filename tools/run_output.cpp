@@ -58,7 +58,7 @@ RunSink run_output(RunFolder* folder, BeliefPublisher* publisher, Dump const& du
         write(*folder, *files, dump);
       }
       if (publisher != nullptr) {
-        publisher->publish(*belief);
+        publisher->publish(*result.belief, *belief);
       }
       progress.show(result);
     };

@@ -4,22 +4,10 @@
 
 #include "belief.h"
 #include "dds/belief_message.hpp"
-#include "dds/qos.hpp"
+#include "dds/entities.hpp"
 
 namespace credo {
 namespace {
-
-DdsEntity writer_of(Participant const& participant, char const* name,
-                    dds_topic_descriptor_t const& type) {
-  // Topics, publishers and writers are children of the participant and go with it.
-  Qos const qos = last_state_qos();
-  dds_entity_t const topic = dds_create_topic(participant.handle(), &type,
-                                              participant.topic(name).c_str(), nullptr, nullptr);
-  dds_entity_t const publisher =
-      dds_create_publisher(participant.handle(), partition_qos(participant).get(), nullptr);
-  return checked(dds_create_writer(publisher, topic, qos.get(), nullptr),
-                 "writer of " + participant.topic(name));
-}
 
 credo_msg_LifecycleState message_of(LifecycleState state) {
   switch (state) {
@@ -38,10 +26,14 @@ credo_msg_LifecycleState message_of(LifecycleState state) {
 BeliefPublisher::BeliefPublisher(DdsConfig const& config)
     : participant_(config),
       beliefs_(writer_of(participant_, "belief", credo_msg_Belief_desc)),
-      lifecycle_(writer_of(participant_, "lifecycle", credo_msg_Lifecycle_desc)) {}
+      lifecycle_(writer_of(participant_, "lifecycle", credo_msg_Lifecycle_desc)),
+      things_(participant_) {}
 
-void BeliefPublisher::publish(BeliefSummary belief) {
-  BeliefMessage const message(participant_.source(), ++revision_, std::move(belief));
+void BeliefPublisher::publish(BeliefState const& belief, BeliefSummary const& summary) {
+  ++revision_;
+  dropped_ += things_.write(belief, summary, revision_);
+  // The last one, so that whoever sees it finds the things of its revision written.
+  BeliefMessage const message(participant_.source(), revision_, summary);
   if (dds_write(beliefs_.handle(), &message.sample()) != DDS_RETCODE_OK) {
     ++dropped_;
   }

@@ -6,21 +6,23 @@
 #include "core/belief_summary.hpp"
 #include "core/dds_config.hpp"
 #include "dds/participant.hpp"
+#include "dds/thing_writers.hpp"
 
 namespace credo {
 
 enum class LifecycleState : std::uint8_t { kRunning, kLingering, kStopping };
 
-/// Puts the belief on DDS: <prefix>/belief after every frame and <prefix>/lifecycle, each the last
-/// one kept for whoever comes late (reliable, transient local). A reader that is slow or dead costs
+/// Puts the belief on DDS: each thing with its points, then <prefix>/belief as a whole, after every
+/// frame; and <prefix>/lifecycle. The last sample of each is kept for whoever comes late (reliable,
+/// transient local). A reader that is slow or dead costs
 /// it samples, never this process its time. Gone from the readers' view with this object.
 class BeliefPublisher {
 public:
   /// Throws InputError where DDS refuses (Participant).
   explicit BeliefPublisher(DdsConfig const& config);
 
-  /// Called by one thread at a time.
-  void publish(BeliefSummary belief);
+  /// `summary` is of `belief`. Called by one thread at a time.
+  void publish(BeliefState const& belief, BeliefSummary const& summary);
   void tell(LifecycleState state, std::string detail);
 
   /// Samples that DDS did not take at once, because its buffers were full.
@@ -30,6 +32,7 @@ private:
   Participant participant_;
   DdsEntity beliefs_;
   DdsEntity lifecycle_;
+  ThingWriters things_;
   std::uint64_t revision_ = 0;
   std::uint64_t dropped_ = 0;
 };

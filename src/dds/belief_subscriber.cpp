@@ -5,7 +5,7 @@
 
 #include "belief.h"
 #include "dds/belief_message.hpp"
-#include "dds/qos.hpp"
+#include "dds/entities.hpp"
 
 namespace credo {
 namespace {

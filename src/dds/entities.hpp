@@ -42,4 +42,18 @@ inline DdsEntity checked(dds_entity_t handle, std::string const& what) {
   return DdsEntity(handle);
 }
 
+/// A writer of <prefix>/<name> with last_state_qos. Its topic and publisher are children of the
+/// participant and go with it.
+inline DdsEntity writer_of(Participant const& participant, char const* name,
+                           dds_topic_descriptor_t const& type) {
+  Qos const qos = last_state_qos();
+  std::string const topic_name = participant.topic(name);
+  dds_entity_t const topic =
+      dds_create_topic(participant.handle(), &type, topic_name.c_str(), nullptr, nullptr);
+  dds_entity_t const publisher =
+      dds_create_publisher(participant.handle(), partition_qos(participant).get(), nullptr);
+  return checked(dds_create_writer(publisher, topic, qos.get(), nullptr),
+                 "writer of " + topic_name);
+}
+
 }  // namespace credo

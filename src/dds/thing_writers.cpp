@@ -1,0 +1,106 @@
+#include "dds/thing_writers.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "dds/entities.hpp"
+#include "dds/thing_messages.hpp"
+#include "things.h"
+
+namespace credo {
+namespace {
+
+std::vector<float> coordinates(PointList const& points) {
+  std::vector<float> flat;
+  flat.reserve(3 * points.size());
+  for (Eigen::Vector3f const& p : points) {
+    flat.insert(flat.end(), {p.x(), p.y(), p.z()});
+  }
+  return flat;
+}
+
+/// Counts the writes that fail.
+class Writes {
+public:
+  template <typename State>
+  void write(DdsEntity const& writer, State const& state) {
+    failed_ += dds_write(writer.handle(), &state) == DDS_RETCODE_OK ? 0U : 1U;
+  }
+  /// Only the key counts.
+  template <typename State>
+  void dispose(DdsEntity const& writer, State const& state) {
+    failed_ += dds_dispose(writer.handle(), &state) == DDS_RETCODE_OK ? 0U : 1U;
+  }
+  [[nodiscard]] std::uint64_t failed() const { return failed_; }
+
+private:
+  std::uint64_t failed_ = 0;
+};
+
+/// Of `before`, those that are not in `now`, by `dispose`; then `before` is `now`.
+template <typename Id, typename Dispose>
+void dispose_gone(std::set<Id>& before, std::set<Id> now, Dispose const& dispose) {
+  for (Id const& id : before) {
+    if (!now.contains(id)) {
+      dispose(id);
+    }
+  }
+  before = std::move(now);
+}
+
+}  // namespace
+
+ThingWriters::ThingWriters(Participant const& participant)
+    : source_(participant.source()),
+      floor_(writer_of(participant, "floor", credo_msg_FloorState_desc)),
+      walls_(writer_of(participant, "walls", credo_msg_WallState_desc)),
+      objects_(writer_of(participant, "objects", credo_msg_ObjectState_desc)),
+      stuff_(writer_of(participant, "stuff", credo_msg_StuffState_desc)) {}
+
+std::uint64_t ThingWriters::write(BeliefState const& belief, BeliefSummary summary,
+                                  std::uint64_t revision) {
+  Writes writes;
+  if (summary.floor) {
+    std::vector<float> points = coordinates(*belief.floor->points);
+    credo_msg_FloorState state{source_.data(), revision, message_of(*summary.floor), {}};
+    state.points_world_m = lent<dds_sequence_float>(points);
+    writes.write(floor_, state);
+  }
+  std::set<std::uint32_t> walls;
+  for (std::size_t i = 0; i < summary.walls.size(); ++i) {
+    std::vector<float> points = coordinates(*belief.walls[i].points);
+    WallSummary const& wall = summary.walls[i];
+    credo_msg_WallState state{source_.data(), wall.id, revision, message_of(wall), {}};
+    state.points_world_m = lent<dds_sequence_float>(points);
+    writes.write(walls_, state);
+    walls.insert(wall.id);
+  }
+  std::set<std::string> objects;
+  for (ObjectSummary& object : summary.objects) {
+    credo_msg_ObjectState const state{source_.data(), object.id.data(), revision,
+                                      message_of(object)};
+    writes.write(objects_, state);
+    objects.insert(object.id);
+  }
+  std::set<std::uint32_t> stuff;
+  for (std::size_t i = 0; i < summary.stuff.size(); ++i) {
+    std::vector<float> points = coordinates(belief.stuff[i].latest().points_world);
+    StuffSummary const& thing = summary.stuff[i];
+    credo_msg_StuffState state{source_.data(), thing.id, revision, message_of(thing), {}};
+    state.points_world_m = lent<dds_sequence_float>(points);
+    writes.write(stuff_, state);
+    stuff.insert(thing.id);
+  }
+  dispose_gone(wall_ids_, std::move(walls), [&](std::uint32_t id) {
+    writes.dispose(walls_, credo_msg_WallState{source_.data(), id, revision, {}, {}});
+  });
+  dispose_gone(object_ids_, std::move(objects), [&](std::string id) {
+    writes.dispose(objects_, credo_msg_ObjectState{source_.data(), id.data(), revision, {}});
+  });
+  dispose_gone(stuff_ids_, std::move(stuff), [&](std::uint32_t id) {
+    writes.dispose(stuff_, credo_msg_StuffState{source_.data(), id, revision, {}, {}});
+  });
+  return writes.failed();
+}
+
+}  // namespace credo

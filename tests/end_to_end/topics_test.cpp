@@ -1,0 +1,182 @@
+// Each thing of the belief by itself, read with the plain C API in another process than the
+// writer's.
+#include <dds/dds.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/dds_config.hpp"
+#include "dds/participant.hpp"
+#include "end_to_end/program.hpp"
+#include "support/paths.hpp"
+#include "things.h"
+
+namespace credo::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::UnorderedElementsAreArray;
+
+/// What a reader holds of a topic: the state of each instance that is alive, and the keys of those
+/// that were disposed of.
+template <typename State>
+struct Topic {
+  std::map<std::string, std::vector<float>> points;
+  std::map<std::string, std::uint64_t> revisions;
+  std::vector<std::string> disposed;
+};
+
+template <typename State>
+class TopicReader {
+public:
+  TopicReader(Participant const& participant, char const* name, dds_topic_descriptor_t const& type,
+              std::function<std::string(State const&)> key,
+              std::function<std::vector<float>(State const&)> points)
+      : key_(std::move(key)), points_(std::move(points)) {
+    dds_qos_t* qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+    dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+    dds_entity_t const handle = dds_create_topic(participant.handle(), &type,
+                                                 participant.topic(name).c_str(), nullptr, nullptr);
+    reader_ = dds_create_reader(participant.handle(), handle, qos, nullptr);
+    dds_delete_qos(qos);
+  }
+
+  /// Takes what has come.
+  void take() {
+    constexpr std::size_t kMost = 64;
+    std::array<void*, kMost> samples{};
+    std::array<dds_sample_info_t, kMost> infos{};
+    dds_return_t const count = dds_take(reader_, samples.data(), infos.data(), kMost, kMost);
+    for (dds_return_t i = 0; i < count; ++i) {
+      auto const at = static_cast<std::size_t>(i);
+      auto const& state = *static_cast<State const*>(samples[at]);
+      std::string const key = key_(state);
+      if (infos[at].valid_data) {
+        topic.points[key] = points_(state);
+        topic.revisions[key] = state.revision;
+      }
+      if (infos[at].instance_state != DDS_IST_ALIVE) {
+        topic.points.erase(key);
+        topic.revisions.erase(key);
+        topic.disposed.push_back(key);
+      }
+    }
+    if (count > 0) {
+      dds_return_loan(reader_, samples.data(), count);
+    }
+  }
+
+  Topic<State> topic;
+
+private:
+  dds_entity_t reader_ = 0;
+  std::function<std::string(State const&)> key_;
+  std::function<std::vector<float>(State const&)> points_;
+};
+
+std::vector<float> values(dds_sequence_float const& sequence) {
+  return {sequence._buffer, sequence._buffer + sequence._length};
+}
+
+class Topics : public ::testing::Test {
+protected:
+  Topics() { config_.topic_prefix = "things_" + std::to_string(getpid()); }
+
+  DdsConfig config_;
+  TempFolder folder_;
+};
+
+// The bottle is moved: what stood at its first place leaves the belief, and so its topic.
+TEST_F(Topics, EachThingIsAnInstanceThatGoesWithIt) {
+  Participant const participant(config_);
+  TopicReader<credo_msg_StuffState> stuff(
+      participant, "stuff", credo_msg_StuffState_desc,
+      [](auto const& state) { return std::to_string(state.stuff_id); },
+      [](auto const& state) { return values(state.points_world_m); });
+  TopicReader<credo_msg_ObjectState> objects(
+      participant, "objects", credo_msg_ObjectState_desc,
+      [](auto const& state) { return std::string(state.object_id); },
+      [](auto const& /*state*/) { return std::vector<float>(); });
+  TopicReader<credo_msg_WallState> walls(
+      participant, "walls", credo_msg_WallState_desc,
+      [](auto const& state) { return std::to_string(state.wall_id); },
+      [](auto const& state) { return values(state.points_world_m); });
+  TopicReader<credo_msg_FloorState> floor(
+      participant, "floor", credo_msg_FloorState_desc,
+      [](auto const& state) { return std::string(state.source); },
+      [](auto const& state) { return values(state.points_world_m); });
+  Program run(credo_command(
+      {"run", "--source", "sim:bottle-moves", "--prior",
+       (source_folder() / "scenes/priors/bottle-moves.yaml").string(), "--set", "detector.kind=sim",
+       "--set", "detector.sim.sigma_position_m=0", "--set", "detector.sim.sigma_rotation_rad=0",
+       "--set", "dds.topic_prefix=" + config_.topic_prefix, "--set", "dds.source=robot", "--out",
+       (folder_ / "out").string(), "--linger", "60"}));
+  auto const take_all = [&] {
+    stuff.take();
+    objects.take();
+    walls.take();
+    floor.take();
+  };
+  constexpr std::uint64_t kLast = 6;
+  for (int i = 0; i < 400 && floor.topic.revisions["robot"] < kLast; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    take_all();
+  }
+  // The floor's goes before the stuff's.
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  take_all();
+
+  json const last = json::parse(read_lines(folder_ / "out/belief.jsonl").back());
+  auto const ids = [&](char const* things) {
+    std::vector<std::string> found;
+    for (json const& thing : last[things]) {
+      found.push_back(thing["id"].is_string() ? thing["id"].get<std::string>()
+                                              : thing["id"].dump());
+    }
+    return found;
+  };
+  auto const expect_alive = [&](auto const& topic, std::vector<std::string> const& expected) {
+    std::vector<std::string> alive;
+    for (auto const& [id, revision] : topic.revisions) {
+      alive.push_back(id);
+      EXPECT_EQ(revision, kLast) << id;
+    }
+    EXPECT_THAT(alive, UnorderedElementsAreArray(expected));
+  };
+  expect_alive(stuff.topic, ids("stuff"));
+  expect_alive(objects.topic, ids("objects"));
+  expect_alive(walls.topic, ids("walls"));
+  expect_alive(floor.topic, {"robot"});
+  EXPECT_THAT(stuff.topic.disposed, ::testing::ElementsAre("1"));
+  EXPECT_EQ(floor.topic.points["robot"].size(), 3 * last["floor"]["points"].get<std::size_t>());
+  for (json const& wall : last["walls"]) {
+    EXPECT_EQ(walls.topic.points[wall["id"].dump()].size(), 3 * wall["points"].get<std::size_t>());
+  }
+  for (json const& thing : last["stuff"]) {
+    std::vector<float> const& points = stuff.topic.points[thing["id"].dump()];
+    ASSERT_GE(points.size(), 3U);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_GE(points[i], thing["min"][i % 3].get<float>() - 1e-6F);
+      EXPECT_LE(points[i], thing["max"][i % 3].get<float>() + 1e-6F);
+    }
+  }
+  run.send(SIGINT);
+  EXPECT_EQ(run.wait().code, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  take_all();
+  EXPECT_TRUE(floor.topic.revisions.empty()) << "a Credo that ends takes its things along";
+}
+
+}  // namespace
+}  // namespace credo::test
