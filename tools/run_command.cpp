@@ -191,6 +191,9 @@ int run(RunCommand const& command) {
   if (command.out.has_value()) {
     folder.emplace(*command.out, dump.labels, dump.pictures, config_yaml(fields(config)));
   }
+  if (auto const warning = receive_buffer_warning(rmem_max_bytes()); warning && publisher) {
+    loaded.warnings.push_back(*warning);
+  }
   log_start(loaded.warnings, level);
   Outlines const outlines = outlines_of(known->models);
   Progress progress(std::min(frame_count, command.frames.value_or(frame_count)));

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <fstream>
 #include <utility>
 
 #include "core/error.hpp"
@@ -59,8 +60,7 @@ std::string domain_xml(DdsConfig const& config) {
          escaped(config.interface_name) +
          R"(" multicast="true"/></Interfaces><MaxMessageSize>65500B</MaxMessageSize>)"
          R"(<FragmentSize>65000B</FragmentSize></General><Internal>)"
-         R"(<SocketReceiveBufferSize min="default"/><Watermarks><WhcHigh>16MB</WhcHigh>)"
-         R"(</Watermarks></Internal></Domain></CycloneDDS>)";
+         R"(<Watermarks><WhcHigh>16MB</WhcHigh></Watermarks></Internal></Domain></CycloneDDS>)";
 }
 
 std::string host_and_process() {
@@ -82,6 +82,23 @@ DdsEntity::~DdsEntity() {
   if (handle_ > 0) {
     dds_delete(handle_);
   }
+}
+
+std::optional<std::string> receive_buffer_warning(std::int64_t rmem_max_bytes) {
+  constexpr std::int64_t kEnough = 1 << 20;
+  if (rmem_max_bytes >= kEnough) {
+    return std::nullopt;
+  }
+  return "net.core.rmem_max is " + std::to_string(rmem_max_bytes) +
+         " bytes: subscribers may lose samples of megabytes and wait for them again; as root, "
+         "sysctl "
+         "-w net.core.rmem_max=4194304";
+}
+
+std::int64_t rmem_max_bytes() {
+  std::int64_t bytes = 0;
+  std::ifstream("/proc/sys/net/core/rmem_max") >> bytes;
+  return bytes;
 }
 
 Participant::Participant(DdsConfig const& config)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/dds_config.hpp"
@@ -31,5 +33,10 @@ private:
   std::string prefix_;
   std::string partition_;
 };
+
+/// A line for people where the kernel lets sockets buffer too little for samples of megabytes.
+[[nodiscard]] std::optional<std::string> receive_buffer_warning(std::int64_t rmem_max_bytes);
+/// The kernel's limit; 0 where it does not tell.
+[[nodiscard]] std::int64_t rmem_max_bytes();
 
 }  // namespace credo

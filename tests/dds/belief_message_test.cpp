@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "belief.h"
+#include "dds/participant.hpp"
 #include "io/belief_json.hpp"
 #include "io/beliefs.hpp"
 
@@ -45,6 +46,13 @@ TEST(BeliefMessage, OutlivesWhatItWasMadeOf) {
   BeliefMessage const message("a source that is too long to lie within a string", 1, *belief);
   belief.reset();
   EXPECT_EQ(belief_json(belief_in(message.sample())), expected);
+}
+
+TEST(Participant, WarnsOfSmallBuffersOnly) {
+  EXPECT_EQ(receive_buffer_warning(4194304), std::nullopt);
+  EXPECT_EQ(receive_buffer_warning(212992).value_or(""),
+            "net.core.rmem_max is 212992 bytes: subscribers may lose samples of megabytes and wait "
+            "for them again; as root, sysctl -w net.core.rmem_max=4194304");
 }
 
 }  // namespace
