@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "end_to_end/program.hpp"
+#include "support/paths.hpp"
 
 namespace credo::test {
 namespace {
@@ -123,6 +125,19 @@ TEST_F(Watch, WithoutABeliefItSaysWhereItListened) {
   EXPECT_EQ(ended.code, 1);
   EXPECT_EQ(ended.err, "credo: no belief on DDS topic test_" + std::to_string(getpid()) +
                            "/belief, domain 0, interface lo, for 0.5 s\n");
+}
+
+TEST_F(Watch, TheProjectsDdsFileIsOneThatDdsTakes) {
+  std::string const uri = "file://" + (source_folder() / "config/cyclonedds.xml").string();
+  setenv("CYCLONEDDS_URI", uri.c_str(), 1);
+  Ended const good = credo(with_topics({"watch", "--once", "--timeout", "0.3"}));
+  setenv("CYCLONEDDS_URI", "<nonsense", 1);
+  Ended const bad = credo(with_topics({"watch", "--once", "--timeout", "0.3"}));
+  unsetenv("CYCLONEDDS_URI");
+  EXPECT_EQ(good.code, 1);
+  EXPECT_THAT(good.err, StartsWith("credo: no belief on DDS topic "));
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_THAT(bad.err, StartsWith("credo: CYCLONEDDS_URI: DDS does not start: "));
 }
 
 TEST_F(Watch, ABadInterfaceOrDomainIsOneLine) {
