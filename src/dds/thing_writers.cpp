@@ -65,7 +65,10 @@ std::uint64_t ThingWriters::write(BeliefState const& belief, BeliefSummary summa
     credo_msg_FloorState state{source_.data(), revision, message_of(*summary.floor), {}};
     state.points_world_m = lent<dds_sequence_float>(points);
     writes.write(floor_, state);
+  } else if (has_floor_) {
+    writes.dispose(floor_, credo_msg_FloorState{source_.data(), revision, {}, {}});
   }
+  has_floor_ = summary.floor.has_value();
   std::set<std::uint32_t> walls;
   for (std::size_t i = 0; i < summary.walls.size(); ++i) {
     std::vector<float> points = coordinates(*belief.walls[i].points);

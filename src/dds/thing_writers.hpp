@@ -26,6 +26,7 @@ private:
   DdsEntity objects_;
   DdsEntity stuff_;
   // Of the last belief.
+  bool has_floor_ = false;
   std::set<std::uint32_t> wall_ids_;
   std::set<std::string> object_ids_;
   std::set<std::uint32_t> stuff_ids_;
