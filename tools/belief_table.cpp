@@ -4,11 +4,14 @@
 
 #include <cmath>
 
+#include "rounding.hpp"
+
 namespace credo {
 namespace {
 
 std::string place(Eigen::Vector3d const& p) {
-  return fmt::format("{:>7.2f}{:>7.2f}{:>7.2f}", p.x(), p.y(), p.z());
+  return fmt::format("{:>7.2f}{:>7.2f}{:>7.2f}", rounded(p.x(), 2), rounded(p.y(), 2),
+                     rounded(p.z(), 2));
 }
 
 std::string row(std::string const& kind, std::string const& name, double probability,
@@ -36,7 +39,8 @@ std::string wall_row(WallSummary const& wall) {
   Eigen::Vector2d const& a = wall.segment_start_m;
   Eigen::Vector2d const& b = wall.segment_end_m;
   return fmt::format("  {:<12}{:<14}({:.2f}, {:.2f}) to ({:.2f}, {:.2f}), {:.2f} m\n", "wall",
-                     fmt::format("#{}", wall.id), a.x(), a.y(), b.x(), b.y(), (b - a).norm());
+                     fmt::format("#{}", wall.id), rounded(a.x(), 2), rounded(a.y(), 2),
+                     rounded(b.x(), 2), rounded(b.y(), 2), (b - a).norm());
 }
 
 }  // namespace
@@ -45,9 +49,8 @@ std::string belief_table(std::string const& source, BeliefSummary const& belief)
   std::string table = fmt::format(
       "{}  frame {}  {:.3f} s  {}\n", source, number(belief.frame),
       static_cast<double>(belief.stamp_ns) * 1e-9,
-      belief.floor
-          ? fmt::format("floor at {:.3f} m", std::round(1e3 * belief.floor->height_m) / 1e3 + 0.0)
-          : "no floor");
+      belief.floor ? fmt::format("floor at {:.3f} m", rounded(belief.floor->height_m, 3))
+                   : "no floor");
   table +=
       fmt::format("  {:<12}{:<14}{:>6} {:>7}{:>7}{:>7}\n", "what", "id", "p", "x m", "y m", "z m");
   for (ObjectSummary const& object : belief.objects) {

@@ -2,23 +2,18 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <cmath>
+#include "rounding.hpp"
 
 namespace credo {
 namespace {
 
 constexpr std::uint64_t kTold = 5;
 
-/// To whole centimetres, and never -0.00.
-double rounded_m(double value_m) {
-  return std::round(100.0 * value_m) / 100.0 + 0.0;
-}
-
 std::string line_of(FrameIndex frame, RefusedDetection const& refused) {
   Eigen::Vector3d const& p = refused.pose_world.mean.translation();
   std::string const what =
       fmt::format("frame {}: a {} detected at ({:.2f}, {:.2f}, {:.2f}) m", number(frame),
-                  refused.type, rounded_m(p.x()), rounded_m(p.y()), rounded_m(p.z()));
+                  refused.type, rounded(p.x(), 2), rounded(p.y(), 2), rounded(p.z(), 2));
   if (refused.object_id.empty()) {
     return what + " is no object of the belief";
   }

@@ -213,25 +213,32 @@ TEST(UpdatedPose, NothingIsEverLearntAboutATurnThatCannotBeSeen) {
   EXPECT_LT((pose.mean * kAxis.point_m - kPose * kAxis.point_m).norm(), 0.002);
 }
 
+/// Mean of the squared normalised error of so many runs: the prior's mean is drawn from the prior,
+/// then come the looks.
+double mean_nees(std::mt19937& generator, Vector6d const& sigma, Vector6d const& noise, int looks,
+                 int runs, Symmetry const& symmetry) {
+  double sum = 0;
+  for (int run = 0; run < runs; ++run) {
+    PoseDistribution pose = about(boxplus(kPose, drawn(generator, sigma)), sigma);
+    for (int look = 0; look < looks; ++look) {
+      pose = updated_pose(pose, about(boxplus(kPose, drawn(generator, noise)), noise), symmetry);
+    }
+    // The truth, with a covariance that adds next to nothing.
+    sum += match_pose(pose, about(kPose, deviations(1e-6, 1e-6)), symmetry).squared_distance;
+  }
+  return sum / runs;
+}
+
 TEST(UpdatedPose, ErrorAndCovarianceAgree) {
   std::mt19937 generator(6);
+  Vector6d sigma;
+  sigma << 0.05, 0.03, 0.04, 0.1, 0.05, 0.08;
+  constexpr int kRuns = 1000;
   for (bool const round : {false, true}) {
     Symmetry const symmetry = round ? Symmetry{kAxis, {}} : Symmetry{};
-    Vector6d sigma;
-    sigma << 0.05, 0.03, 0.04, 0.1, 0.05, 0.08;
-    Vector6d const noise = deviations(0.01, 0.03);
-    double sum = 0;
-    constexpr int kRuns = 1000;
-    for (int run = 0; run < kRuns; ++run) {
-      PoseDistribution pose = about(boxplus(kPose, drawn(generator, sigma)), sigma);
-      for (int look = 0; look < 8; ++look) {
-        pose = updated_pose(pose, about(boxplus(kPose, drawn(generator, noise)), noise), symmetry);
-      }
-      // The truth, with a covariance that adds next to nothing.
-      sum += match_pose(pose, about(kPose, deviations(1e-6, 1e-6)), symmetry).squared_distance;
-    }
     double const expected = round ? 5 : 6;
-    EXPECT_NEAR(sum / kRuns, expected, 3 * std::sqrt(2 * expected / kRuns) + 0.05);
+    EXPECT_NEAR(mean_nees(generator, sigma, deviations(0.01, 0.03), 8, kRuns, symmetry), expected,
+                3 * std::sqrt(2 * expected / kRuns) + 0.05);
   }
 }
 
@@ -241,18 +248,8 @@ TEST(UpdatedPose, ErrorAndCovarianceAgreeAfterLargeTurns) {
   std::mt19937 generator(9);
   Vector6d sigma;
   sigma << 0.05, 0.03, 0.04, 0.01, 0.1, 0.9;
-  Vector6d const noise = deviations(0.01, 0.1);
-  double sum = 0;
-  constexpr int kRuns = 2000;
-  for (int run = 0; run < kRuns; ++run) {
-    PoseDistribution pose = about(boxplus(kPose, drawn(generator, sigma)), sigma);
-    for (int look = 0; look < 3; ++look) {
-      pose = updated_pose(pose, about(boxplus(kPose, drawn(generator, noise)), noise), {});
-    }
-    sum += match_pose(pose, about(kPose, deviations(1e-6, 1e-6)), {}).squared_distance;
-  }
   // What is not linear in turns of a radian makes it a little more.
-  EXPECT_NEAR(sum / kRuns, 6.0, 0.5);
+  EXPECT_NEAR(mean_nees(generator, sigma, deviations(0.01, 0.1), 3, 2000, {}), 6.0, 0.5);
 }
 
 TEST(UpdatedPose, NoNumberOfLooksMakesItSurerThanItsShare) {

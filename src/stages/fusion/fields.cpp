@@ -45,9 +45,7 @@ FieldList fields(ObjectFusionConfig& config) {
        &config.unseen_relaxation,
        {0, 1},
        "",
-       "part of the way back to the prior's uncertainty, for a look in vain at what is believed to "
-       "be "
-       "gone"},
+       "how far a look in vain takes what is believed gone back to the prior's uncertainty"},
   };
 }
 

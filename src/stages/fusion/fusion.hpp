@@ -31,8 +31,8 @@ struct ObjectFusionConfig {
   /// errors have it in common (T: 0).
   double min_covariance_share = 0.05;
   /// What is looked for in vain may have been moved: the less it is believed to be there, the more
-  /// its pose goes back to the uncertainty of the prior. So much of the way for a look at what is
-  /// believed to be gone; 0 never (T).
+  /// its pose goes back to the uncertainty of the prior: so much of the way for a look at what is
+  /// believed to be gone (T: 0, never).
   double unseen_relaxation = 0.1;
 };
 FieldList fields(ObjectFusionConfig& config);
