@@ -178,5 +178,38 @@ TEST_F(Topics, EachThingIsAnInstanceThatGoesWithIt) {
   EXPECT_TRUE(floor.topic.revisions.empty()) << "a Credo that ends takes its things along";
 }
 
+// Frames that have nothing to do with each other, of which the second shows a wall only.
+TEST_F(Topics, AFloorThatLeavesTheBeliefLeavesItsTopic) {
+  write_text(folder_ / "scene.yaml", R"(things:
+  - {name: floor, kind: floor, shape: box, size_m: [8, 8, 0.05], position_m: [0, 0, -0.05]}
+  - {name: wall, kind: wall, shape: box, size_m: [0.1, 8, 5], position_m: [3.95, 0, 0]}
+camera:
+  frames_per_s: 1
+  path:
+    - {time_s: 0, position_m: [0, 0, 1.4], look_at_m: [2, 0, 0.6]}
+    - {time_s: 1, position_m: [1.5, 0, 2.5], look_at_m: [4, 0, 2.5]}
+)");
+  Participant const participant(config_);
+  TopicReader<credo_msg_FloorState> floor(
+      participant, "floor", credo_msg_FloorState_desc,
+      [](auto const& state) { return std::string(state.source); },
+      [](auto const& state) { return values(state.points_world_m); });
+  Program run(credo_command({"run", "--source", "sim:" + (folder_ / "scene.yaml").string(), "--set",
+                             "capture.independent_frames=true", "--set", "dds.source=robot",
+                             "--set", "dds.topic_prefix=" + config_.topic_prefix, "--out",
+                             (folder_ / "out").string(), "--linger", "60"}));
+  for (int i = 0; i < 200 && floor.topic.disposed.empty(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    floor.take();
+  }
+  EXPECT_THAT(floor.topic.disposed, ::testing::ElementsAre("robot")) << "while it still lingers";
+  std::vector<std::string> const lines = read_lines(folder_ / "out/belief.jsonl");
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_FALSE(json::parse(lines[0])["floor"].is_null());
+  EXPECT_TRUE(json::parse(lines[1])["floor"].is_null());
+  run.send(SIGINT);
+  EXPECT_EQ(run.wait().code, 0);
+}
+
 }  // namespace
 }  // namespace credo::test
