@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "end_to_end/known_scene.hpp"
@@ -83,6 +84,8 @@ TEST(ObjectFilter, ErrorAndCovarianceShrinkTogether) {
   double const bound = 1.96 * std::sqrt(2.0 * 6.0 / kRuns);
   for (std::size_t i = 0; i < looks.size(); ++i) {
     EXPECT_NEAR(looks[i].nees_sum / kRuns, 6.0, bound) << "frame " << i;
+    RecordProperty("nees_permille_" + std::to_string(i),
+                   static_cast<int>(1000 * looks[i].nees_sum / kRuns));
     // Both are sums of 3 x 200 squares: 15 % is more than two and a half standard deviations.
     EXPECT_NEAR(looks[i].squared_error_sum_m2 / looks[i].variance_sum_m2, 1.0, 0.15)
         << "frame " << i;
