@@ -40,6 +40,8 @@ constexpr char const* kExamples = R"(Examples:
   credo run --source dataset:recordings/kitchen --frames 40 --set graph.threads=1
   credo run --source sim:box-on-table --prior scenes/priors/box-on-table.yaml \
       --set detector.kind=sim --out out/box --dump pictures
+  credo run --source oni:recordings/living-room.oni --out out/living-room --dump pictures
+  credo run --source openni: --out out/live        (the first sensor that OpenNI2 finds; Ctrl-C ends)
   credo run --source dataset:clouds --set capture.independent_frames=true --out out/clouds
 
 Into --out go belief.jsonl (one line a good frame), metrics.json, config.yaml (resolved), and with
@@ -126,6 +128,16 @@ std::shared_ptr<KnownObjects const> known_objects(ObjectModels models, PipelineC
   return known;
 }
 
+/// That a run will read; none where the source does not know its end.
+std::optional<std::int64_t> frame_count(OpenedSource const& opened,
+                                        std::optional<std::int64_t> most) {
+  if (!opened.frame_count) {
+    return most;
+  }
+  auto const all = static_cast<std::int64_t>(*opened.frame_count);
+  return std::min(all, most.value_or(all));
+}
+
 /// A prior given in the camera's frame needs to know where that camera is.
 BeliefPtr first_belief(ReadAhead& source, WorldLevel const& level, Prior const& prior) {
   FramePtr const first = prior.frame == PriorFrame::kCamera ? source.first_frame() : nullptr;
@@ -176,9 +188,9 @@ int run(RunCommand const& command) {
   PipelineConfig config = resolved_config(command.config);
   LoadedPrior loaded = prior_of(command, config);
   auto const known = known_objects(std::move(loaded.models), config, command.source);
-  OpenedSource opened = open_source(command.source, config.capture, config.pose);
+  OpenedSource opened = open_source(command.source, config.capture, config.pose, signals.token());
   std::ranges::move(opened.warnings, std::back_inserter(loaded.warnings));
-  auto const frame_count = static_cast<std::int64_t>(opened.frame_count);
+  std::optional<std::int64_t> const frames_to_come = frame_count(opened, command.frames);
   ReadAhead source(std::move(opened.source), command.frames);
   Workers workers(config.graph.threads);
   WorldLevel const level = level_of(source, config, workers);
@@ -196,7 +208,7 @@ int run(RunCommand const& command) {
   }
   log_start(loaded.warnings, level);
   Outlines const outlines = outlines_of(known->models);
-  Progress progress(std::min(frame_count, command.frames.value_or(frame_count)));
+  Progress progress(frames_to_come);
   RunReport const report = run_pipeline(source, make_stages(config, level, loaded.prior, known),
                                         run_output(folder.has_value() ? &*folder : nullptr,
                                                    publisher.get(), dump, outlines, progress),
@@ -220,7 +232,8 @@ void add_run_command(CLI::App& app, Command& chosen) {
   auto command = std::make_shared<RunCommand>();
   CLI::App* sub = app.add_subcommand("run", "Turn a source of RGB-D frames into a belief");
   sub->footer(kExamples);
-  sub->add_option("--source", command->source, "dataset:DIR or sim:NAME-or-FILE")
+  sub->add_option("--source", command->source,
+                  "dataset:DIR, oni:FILE, openni:[URI] or sim:NAME-or-FILE")
       ->required()
       ->type_name("URI");
   add_config_arguments(*sub, command->config);

@@ -6,6 +6,8 @@
 
 #include "config/yaml_config.hpp"
 #include "core/error.hpp"
+#include "openni/oni_source.hpp"
+#include "openni/openni_source.hpp"
 #include "sim/sim_source.hpp"
 
 namespace credo {
@@ -27,19 +29,24 @@ Scene load_scene(std::string const& name_or_file) {
 }
 
 OpenedSource open_source(std::string const& uri, CaptureConfig const& capture,
-                         PoseConfig const& pose) {
+                         PoseConfig const& pose, std::stop_token const& stop) {
   std::size_t const colon = uri.find(':');
   std::string const scheme = colon == std::string::npos ? "" : uri.substr(0, colon);
   std::string const rest = colon == std::string::npos ? "" : uri.substr(colon + 1);
-  if (scheme == "oni" || scheme == "openni") {
-    throw InputError("--source " + uri + ": this build cannot read " + scheme +
-                     " yet; use dataset:DIR or sim:NAME");
+  if (scheme == "openni") {
+    return open_openni(rest, capture, pose, stop);
   }
-  if (rest.empty() || (scheme != "dataset" && scheme != "sim")) {
-    throw InputError("--source " + uri +
-                     ": names no source; write dataset:DIR or sim:NAME-or-FILE");
+  if (!rest.empty() && scheme == "dataset") {
+    return open_dataset(rest, capture, pose);
   }
-  return scheme == "sim" ? open_sim(rest, pose) : open_dataset(rest, capture, pose);
+  if (!rest.empty() && scheme == "oni") {
+    return open_oni(rest, capture, pose);
+  }
+  if (!rest.empty() && scheme == "sim") {
+    return open_sim(rest, pose);
+  }
+  throw InputError("--source " + uri +
+                   ": names no source; write dataset:DIR, oni:FILE, openni: or sim:NAME-or-FILE");
 }
 
 }  // namespace credo

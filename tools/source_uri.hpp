@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 
 #include "core/capture_config.hpp"
@@ -11,9 +12,10 @@ namespace credo {
 /// A scene by name or file. Throws InputError where there is none or it is not right.
 Scene load_scene(std::string const& name_or_file);
 
-/// Opens what `--source` names: `dataset:DIR`, `sim:NAME-or-FILE`. Throws InputError where it
-/// cannot be opened or is of no kind known.
+/// Opens what `--source` names: `dataset:DIR`, `sim:NAME-or-FILE`, `oni:FILE`, `openni:` or
+/// `openni:URI`; the last ends on `stop`. Throws InputError where it cannot be opened or is of no
+/// kind known.
 OpenedSource open_source(std::string const& uri, CaptureConfig const& capture,
-                         PoseConfig const& pose);
+                         PoseConfig const& pose, std::stop_token const& stop);
 
 }  // namespace credo

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,8 @@ namespace credo {
 struct OpenedSource {
   std::unique_ptr<FrameSource> source;
   std::vector<std::string> warnings;
-  /// Frames it will deliver, good or bad.
-  std::size_t frame_count = 0;
+  /// Frames it will deliver, good or bad; none where the end is not known.
+  std::optional<std::size_t> frame_count;
 };
 
 /// Opens a folder of recorded RGB-D frames; the layout is told by what lies in it:

@@ -194,15 +194,18 @@ Grid<std::uint16_t> read_png16(std::filesystem::path const& path) {
   return image;
 }
 
-Grid<Rgb> read_color(std::filesystem::path const& path) {
-  Bytes const bytes = read_bytes(path);
+Grid<Rgb> decode_color(Bytes const& bytes, std::filesystem::path const& name) {
   if (is_png(bytes)) {
-    return read_png_rgb(bytes, path);
+    return read_png_rgb(bytes, name);
   }
   if (is_jpeg(bytes)) {
-    return read_jpeg(bytes, path);
+    return read_jpeg(bytes, name);
   }
-  fail(ImageFault::kUnreadable, path, "neither PNG nor JPEG");
+  fail(ImageFault::kUnreadable, name, "neither PNG nor JPEG");
+}
+
+Grid<Rgb> read_color(std::filesystem::path const& path) {
+  return decode_color(read_bytes(path), path);
 }
 
 EncodedPng encode_png16(Grid<std::uint16_t> const& image) {

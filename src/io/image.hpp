@@ -31,6 +31,8 @@ Grid<std::uint16_t> read_png16(std::filesystem::path const& path);
 /// An 8-bit colour or grey image, PNG or JPEG by content. Cut files throw ImageError, also where
 /// the decoder would fill the rest with grey.
 Grid<Rgb> read_color(std::filesystem::path const& path);
+/// The same from memory; `name` is for what is thrown.
+Grid<Rgb> decode_color(std::vector<unsigned char> const& bytes, std::filesystem::path const& name);
 
 /// A PNG file in memory. Compressed lightly: these are made at frame rate.
 using EncodedPng = std::vector<unsigned char>;

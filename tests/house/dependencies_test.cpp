@@ -55,6 +55,7 @@ std::vector<std::string> const& allowed_rooms(std::string const& room) {
       {"geometry", {"core", "geometry"}},
       {"config", {"core", "config"}},
       {"io", {"core", "io"}},
+      {"openni", {"core", "io", "openni"}},
       {"dds", {"core", "dds"}},
       {"sim", {"core", "geometry", "io", "sim"}},
       {"stages", {"core", "geometry", "stages"}},
@@ -67,7 +68,7 @@ std::vector<std::string> const& allowed_rooms(std::string const& room) {
 
 std::set<std::string> const& rooms() {
   static std::set<std::string> const all = {"core", "geometry", "config", "io",
-                                            "sim",  "stages",   "graph",  "dds"};
+                                            "sim",  "stages",   "graph",  "dds",    "openni"};
   return all;
 }
 
@@ -110,6 +111,7 @@ TEST(Dependencies, LibrariesStayInTheirRooms) {
       {"spng.h", {"io"}, false},
       {"turbojpeg.h", {"io"}, false},
       {"nlohmann/", {"io"}, true},
+      {"OpenNI.h", {"openni"}, false},
       {"dds/dds.h", {"dds"}, true},
       {"belief.h", {"dds"}, true},
       {"things.h", {"dds"}, false},

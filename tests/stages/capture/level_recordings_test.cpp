@@ -45,7 +45,7 @@ TEST(LevelOfRecordings, NoTableTopIsAFloor) {
   EXPECT_FALSE(camera_height_m("appearing-boxes/cam1").has_value());
   EXPECT_FALSE(camera_height_m("appearing-boxes/cam2").has_value());
   OpenedSource const opened = open_dataset(test::recordings() / "osd", {}, {});
-  for (std::size_t i = 0; i < opened.frame_count; ++i) {
+  for (std::size_t i = 0; i < *opened.frame_count; ++i) {
     auto const frame = std::get<FramePtr>(opened.source->next());
     EXPECT_FALSE(find_floor(frame->cloud_camera).has_value()) << "osd " << i;
   }
