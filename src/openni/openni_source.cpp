@@ -25,7 +25,10 @@ constexpr auto kFirstFrameGrace = std::chrono::seconds(10);
 constexpr auto kStallAfter = std::chrono::seconds(2);
 /// How long a request to stop may wait.
 constexpr int kTick_ms = 100;
-constexpr std::int64_t kFrameTime_ns = 1'000'000'000 / 30;
+/// Half a frame's time at 30 Hz: what is farther apart is another frame's, and what has not come by
+/// then does not come.
+constexpr std::int64_t kPairing_ns = 1'000'000'000 / 30 / 2;
+constexpr int kColorGrace_ms = 1000 / 30 / 2;
 /// Enough to find the one nearest to a depth image that came a little late.
 constexpr std::size_t kColorsKept = 4;
 
@@ -126,20 +129,15 @@ public:
       if (listener_.unplugged) {
         throw InputError(name() + ": was unplugged");
       }
-      std::array<openni::VideoStream*, 2> streams = {&depth_, &color_};
-      int ready = -1;
-      openni::Status const status = openni::OpenNI::waitForAnyStream(
-          streams.data(), color_.isValid() ? 2 : 1, &ready, kTick_ms);
-      if (status == openni::STATUS_OK && ready == 1) {
-        take_color();
-      } else if (status == openni::STATUS_OK) {
-        if (FramePtr frame = take_depth()) {
-          waits_until_ = Clock::now() + kStallAfter;
-          return frame;
-        }
-      } else if (listener_.at_end) {
+      FramePtr frame = wait_and_take();
+      if (frame != nullptr) {
+        waits_until_ = Clock::now() + kStallAfter;
+        return frame;
+      }
+      if (waiting_ == nullptr && listener_.at_end) {
         break;
-      } else if (Clock::now() > waits_until_) {
+      }
+      if (Clock::now() > waits_until_) {
         waits_until_ = Clock::now() + kStallAfter;
         return FrameFailure{next_index(), kStalled, name() + ": sends no depth"};
       }
@@ -218,6 +216,39 @@ private:
     return static_cast<std::int64_t>(frame.getTimestamp()) * 1000;
   }
 
+  /// Takes the next image of either stream, waiting for it a little. A frame once its depth has met
+  /// its colour, or that has not come in time; else null.
+  FramePtr wait_and_take() {
+    std::array<openni::VideoStream*, 2> streams = {&depth_, &color_};
+    int ready = -1;
+    openni::Status const status =
+        openni::OpenNI::waitForAnyStream(streams.data(), color_.isValid() ? 2 : 1, &ready,
+                                         waiting_ != nullptr ? kColorGrace_ms : kTick_ms);
+    if (status != openni::STATUS_OK) {
+      return released();
+    }
+    FramePtr late;
+    if (ready == 0) {
+      late = released();
+      waiting_ = take_depth();
+    } else {
+      take_color();
+    }
+    bool const met =
+        waiting_ != nullptr &&
+        (!color_.isValid() || (!colors_.empty() && colors_.back().stamp_ns >= waiting_->stamp_ns));
+    return late == nullptr && met ? released() : late;
+  }
+
+  FramePtr released() {
+    if (waiting_ == nullptr) {
+      return nullptr;
+    }
+    waiting_->index = next_index();
+    waiting_->color = color_near(waiting_->stamp_ns);
+    return std::exchange(waiting_, nullptr);
+  }
+
   void take_color() {
     openni::VideoFrameRef frame;
     if (color_.readFrame(&frame) != openni::STATUS_OK) {
@@ -232,7 +263,7 @@ private:
     }
   }
 
-  FramePtr take_depth() {
+  std::shared_ptr<Frame> take_depth() {
     openni::VideoFrameRef read;
     if (depth_.readFrame(&read) != openni::STATUS_OK) {
       return nullptr;
@@ -242,13 +273,11 @@ private:
       return nullptr;
     }
     auto frame = std::make_shared<Frame>();
-    frame->index = next_index();
     frame->stamp_ns = stamp_ns(read);
     frame->intrinsics = intrinsics_;
     frame->cloud_camera = cloud_from_depth(
         depth_image({counts.data(), counts.size()}, counts.width(), counts.height(), capture_),
         intrinsics_);
-    frame->color = color_near(frame->stamp_ns);
     return frame;
   }
 
@@ -257,8 +286,8 @@ private:
       return std::abs(color.stamp_ns - stamp_ns);
     };
     auto const nearest = std::ranges::min_element(colors_, {}, distance_ns);
-    return nearest != colors_.end() && distance_ns(*nearest) <= kFrameTime_ns ? nearest->image
-                                                                              : Grid<Rgb>();
+    return nearest != colors_.end() && distance_ns(*nearest) <= kPairing_ns ? nearest->image
+                                                                            : Grid<Rgb>();
   }
 
   std::string uri_;
@@ -274,6 +303,8 @@ private:
   CameraIntrinsics intrinsics_;
   std::vector<std::string> warnings_;
   std::vector<ColorImage> colors_;
+  /// A depth image whose colour may still come.
+  std::shared_ptr<Frame> waiting_;
   std::int64_t frames_ = 0;
   Clock::time_point waits_until_;
 };

@@ -11,7 +11,7 @@ namespace credo {
 /// Opens a sensor through OpenNI2, by its URI or, where that is empty, the first one found. A
 /// recording's path is a URI, too: OpenNI2 then plays it in real time.
 ///
-/// A frame is a depth image with the colour image nearest in time of those that came until then.
+/// A frame is a depth image with the colour image nearest in time, within half a frame's time.
 /// What is not taken in time is replaced by what is newer, as a live sensor does. The sensor stands
 /// still: pose.source must not be `file`. Depth is registered to the colour camera where the sensor
 /// can; mirrored streams are turned back. Intrinsics: the config's, else of the field of view.

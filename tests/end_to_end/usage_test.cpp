@@ -55,13 +55,15 @@ INSTANTIATE_TEST_SUITE_P(
                  "/nowhere/room.yaml: cannot be read"},
         BadUsage{"UnknownSource",
                  {"run", "--source", "kitchen"},
-                 "--source kitchen: names no source; write dataset:DIR or sim:NAME-or-FILE"},
+                 "--source kitchen: names no source; write dataset:DIR, oni:FILE, openni: or "
+                 "sim:NAME-or-FILE"},
         BadUsage{"EmptySource",
                  {"run", "--source", "dataset:"},
-                 "--source dataset:: names no source; write dataset:DIR or sim:NAME-or-FILE"},
+                 "--source dataset:: names no source; write dataset:DIR, oni:FILE, openni: or "
+                 "sim:NAME-or-FILE"},
         BadUsage{"Oni",
                  {"run", "--source", "oni:a.oni"},
-                 "--source oni:a.oni: this build cannot read oni yet; use dataset:DIR or sim:NAME"},
+                 "a.oni: no such recording"},
         BadUsage{"NoFolder",
                  {"run", "--source", "dataset:/nowhere"},
                  "dataset /nowhere: no such folder"},
