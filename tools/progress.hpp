@@ -7,9 +7,9 @@
 #include <string>
 
 #include "core/frame_source.hpp"
+#include "core/run_metrics.hpp"
 #include "detection_log.hpp"
 #include "graph/run_sink.hpp"
-#include "io/metrics.hpp"
 
 namespace credo {
 

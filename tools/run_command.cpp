@@ -191,11 +191,11 @@ int run(RunCommand const& command) {
   OpenedSource opened = open_source(command.source, config.capture, config.pose, signals.token());
   std::ranges::move(opened.warnings, std::back_inserter(loaded.warnings));
   std::optional<std::int64_t> const frames_to_come = frame_count(opened, command.frames);
+  std::unique_ptr<BeliefPublisher> const publisher = publisher_of(command, config.dds);
   ReadAhead source(std::move(opened.source), command.frames);
   Workers workers(config.graph.threads);
   WorldLevel const level = level_of(source, config, workers);
   BeliefPtr const prior_world = first_belief(source, level, loaded.prior);
-  std::unique_ptr<BeliefPublisher> const publisher = publisher_of(command, config.dds);
 
   // Nothing is written before all that can be checked has been, and bad input is told in one line.
   Dump const dump = dump_of(command);
@@ -216,6 +216,9 @@ int run(RunCommand const& command) {
   progress.finish();
   if (folder.has_value()) {
     folder->write_metrics(report.metrics);
+  }
+  if (publisher != nullptr) {
+    publisher->publish(report.metrics);
   }
   if (report.error != nullptr) {
     std::rethrow_exception(report.error);

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "io/belief_json.hpp"
 #include "io/image.hpp"
@@ -48,6 +49,7 @@ void write(RunFolder& folder, Files const& files, Dump const& dump) {
 RunSink run_output(RunFolder* folder, BeliefPublisher* publisher, Dump const& dump,
                    Outlines const& outlines, Progress& progress) {
   RunSink sink;
+  auto const source_lost = std::make_shared<bool>(false);
   sink.encode = [=, &outlines, &progress](FrameResult const& result) -> Delivery {
     auto const belief = std::make_shared<BeliefSummary const>(summary_of(*result.belief));
     auto const files =
@@ -59,11 +61,24 @@ RunSink run_output(RunFolder* folder, BeliefPublisher* publisher, Dump const& du
       }
       if (publisher != nullptr) {
         publisher->publish(*result.belief, *belief);
+        publisher->publish(*result.segmentation, result.frame->intrinsics);
+        if (std::exchange(*source_lost, false)) {
+          publisher->tell(LifecycleState::kRunning, "");
+        }
       }
       progress.show(result);
     };
   };
-  sink.lost = [&progress](FrameFailure const& failure) { progress.lost(failure); };
+  sink.lost = [=, &progress](FrameFailure const& failure) {
+    progress.lost(failure);
+    if (publisher != nullptr && failure.silence) {
+      *source_lost = true;
+      publisher->tell(LifecycleState::kSourceLost, failure.message);
+    }
+  };
+  if (publisher != nullptr) {
+    sink.metrics = [=](RunMetrics const& metrics) { publisher->publish(metrics); };
+  }
   return sink;
 }
 

@@ -14,6 +14,8 @@ struct FrameFailure {
   std::string reason;
   /// One line for people: what, where, what to do.
   std::string message;
+  /// No frame came at all for longer than one takes: the source may be lost.
+  bool silence = false;
 };
 
 struct EndOfSource {};

@@ -13,6 +13,8 @@ credo_msg_LifecycleState message_of(LifecycleState state) {
   switch (state) {
     case LifecycleState::kRunning:
       return credo_msg_LIFECYCLE_RUNNING;
+    case LifecycleState::kSourceLost:
+      return credo_msg_LIFECYCLE_SOURCE_LOST;
     case LifecycleState::kLingering:
       return credo_msg_LIFECYCLE_LINGERING;
     case LifecycleState::kStopping:
@@ -25,9 +27,11 @@ credo_msg_LifecycleState message_of(LifecycleState state) {
 
 BeliefPublisher::BeliefPublisher(DdsConfig const& config)
     : participant_(config),
-      beliefs_(writer_of(participant_, "belief", credo_msg_Belief_desc)),
-      lifecycle_(writer_of(participant_, "lifecycle", credo_msg_Lifecycle_desc)),
-      things_(participant_) {}
+      beliefs_(writer_of(participant_, "belief", credo_msg_Belief_desc, last_state_qos())),
+      lifecycle_(writer_of(participant_, "lifecycle", credo_msg_Lifecycle_desc, last_state_qos())),
+      things_(participant_),
+      segmentations_(participant_),
+      metrics_(participant_) {}
 
 void BeliefPublisher::publish(BeliefState const& belief, BeliefSummary const& summary) {
   ++revision_;
@@ -37,6 +41,15 @@ void BeliefPublisher::publish(BeliefState const& belief, BeliefSummary const& su
   if (dds_write(beliefs_.handle(), &message.sample()) != DDS_RETCODE_OK) {
     ++dropped_;
   }
+}
+
+void BeliefPublisher::publish(Segmentation const& segmentation,
+                              CameraIntrinsics const& intrinsics) {
+  dropped_ += segmentations_.write(segmentation, intrinsics, revision_) ? 0U : 1U;
+}
+
+void BeliefPublisher::publish(RunMetrics const& metrics) {
+  dropped_ += metrics_.write(metrics, dropped_) ? 0U : 1U;
 }
 
 void BeliefPublisher::tell(LifecycleState state, std::string detail) {

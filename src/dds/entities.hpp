@@ -24,6 +24,15 @@ inline Qos last_state_qos() {
   return qos;
 }
 
+/// Sent once, and lost to whoever is late or slow.
+inline Qos droppable_qos() {
+  Qos qos(dds_create_qos());
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+  return qos;
+}
+
 /// For a publisher or subscriber.
 inline Qos partition_qos(Participant const& participant) {
   Qos qos(dds_create_qos());
@@ -42,11 +51,10 @@ inline DdsEntity checked(dds_entity_t handle, std::string const& what) {
   return DdsEntity(handle);
 }
 
-/// A writer of <prefix>/<name> with last_state_qos. Its topic and publisher are children of the
-/// participant and go with it.
+/// A writer of <prefix>/<name>. Its topic and publisher are children of the participant and go with
+/// it.
 inline DdsEntity writer_of(Participant const& participant, char const* name,
-                           dds_topic_descriptor_t const& type) {
-  Qos const qos = last_state_qos();
+                           dds_topic_descriptor_t const& type, Qos const& qos) {
   std::string const topic_name = participant.topic(name);
   dds_entity_t const topic =
       dds_create_topic(participant.handle(), &type, topic_name.c_str(), nullptr, nullptr);
@@ -54,6 +62,13 @@ inline DdsEntity writer_of(Participant const& participant, char const* name,
       dds_create_publisher(participant.handle(), partition_qos(participant).get(), nullptr);
   return checked(dds_create_writer(publisher, topic, qos.get(), nullptr),
                  "writer of " + topic_name);
+}
+
+/// Whether a sample would reach anyone: large ones are not made for nobody.
+inline bool has_readers(DdsEntity const& writer) {
+  dds_publication_matched_status_t status{};
+  return dds_get_publication_matched_status(writer.handle(), &status) == DDS_RETCODE_OK &&
+         status.current_count > 0;
 }
 
 }  // namespace credo

@@ -52,10 +52,10 @@ void dispose_gone(std::set<Id>& before, std::set<Id> now, Dispose const& dispose
 
 ThingWriters::ThingWriters(Participant const& participant)
     : source_(participant.source()),
-      floor_(writer_of(participant, "floor", credo_msg_FloorState_desc)),
-      walls_(writer_of(participant, "walls", credo_msg_WallState_desc)),
-      objects_(writer_of(participant, "objects", credo_msg_ObjectState_desc)),
-      stuff_(writer_of(participant, "stuff", credo_msg_StuffState_desc)) {}
+      floor_(writer_of(participant, "floor", credo_msg_FloorState_desc, last_state_qos())),
+      walls_(writer_of(participant, "walls", credo_msg_WallState_desc, last_state_qos())),
+      objects_(writer_of(participant, "objects", credo_msg_ObjectState_desc, last_state_qos())),
+      stuff_(writer_of(participant, "stuff", credo_msg_StuffState_desc, last_state_qos())) {}
 
 std::uint64_t ThingWriters::write(BeliefState const& belief, BeliefSummary summary,
                                   std::uint64_t revision) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/metrics.hpp"
+#include "core/run_metrics.hpp"
 
 namespace credo {
 

@@ -33,6 +33,7 @@ JobPtr FrameReader::read() {
   } else {
     job->frame = std::get<FramePtr>(std::move(result));
     job->index = job->frame->index;
+    std::scoped_lock const lock(mutex_);
     durations_.add(job->captured - start);
   }
   if (number(job->index) != static_cast<std::int64_t>(frames_)) {
@@ -41,6 +42,11 @@ JobPtr FrameReader::read() {
   }
   ++frames_;
   return job;
+}
+
+DurationQuantiles FrameReader::durations() const {
+  std::scoped_lock const lock(mutex_);
+  return durations_.quantiles();
 }
 
 }  // namespace credo

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <mutex>
 
 #include "core/frame_source.hpp"
 #include "graph/duration_histogram.hpp"
@@ -9,7 +10,8 @@
 
 namespace credo {
 
-/// The first stage: takes frames from a source and holds it to its contract. One thread.
+/// The first stage: takes frames from a source and holds it to its contract. One thread,
+/// but for durations().
 class FrameReader {
 public:
   /// `source` outlives the reader.
@@ -23,8 +25,8 @@ public:
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
   /// What the source threw, or std::logic_error where a frame did not follow the one before.
   [[nodiscard]] std::exception_ptr error() const { return error_; }
-  /// Time spent in the source for each good frame.
-  [[nodiscard]] DurationHistogram const& durations() const { return durations_; }
+  /// Time spent in the source for each good frame. Any thread.
+  [[nodiscard]] DurationQuantiles durations() const;
 
 private:
   JobPtr read();
@@ -32,6 +34,7 @@ private:
   FrameSource& source_;
   std::uint64_t frames_ = 0;
   std::exception_ptr error_;
+  mutable std::mutex mutex_;
   DurationHistogram durations_;
 };
 

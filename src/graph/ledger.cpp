@@ -112,16 +112,22 @@ void Ledger::wait_until_settled(std::uint64_t frames) {
   settled_.wait(lock, [&] { return metrics_.frames_in >= frames; });
 }
 
-RunReport Ledger::close(bool wanted_frames) {
-  metrics_.wall_s = std::chrono::duration<double>(Job::Clock::now() - started_).count();
-  metrics_.cpu_s = cpu_seconds() - cpu_s_at_start_;
-  metrics_.fps = static_cast<double>(metrics_.frames_out) / metrics_.wall_s;
-  metrics_.rss_mb_end = resident_mb();
+RunMetrics Ledger::so_far() const {
+  RunMetrics metrics = metrics_;
+  metrics.wall_s = std::chrono::duration<double>(Job::Clock::now() - started_).count();
+  metrics.cpu_s = cpu_seconds() - cpu_s_at_start_;
+  metrics.fps = static_cast<double>(metrics.frames_out) / metrics.wall_s;
+  metrics.rss_mb_end = resident_mb();
   // The kernel counts both by itself, and the peak may lag behind by a few pages.
-  metrics_.peak_rss_mb = std::max(peak_resident_mb(), metrics_.rss_mb_end);
-  if (metrics_.frames_in < kEarlyFrames) {
-    metrics_.rss_mb_at_100 = metrics_.rss_mb_end;
+  metrics.peak_rss_mb = std::max(peak_resident_mb(), metrics.rss_mb_end);
+  if (metrics.frames_in < kEarlyFrames) {
+    metrics.rss_mb_at_100 = metrics.rss_mb_end;
   }
+  metrics.latency = latency_.quantiles();
+  return metrics;
+}
+
+RunReport Ledger::close(bool wanted_frames) {
   if (error_ == nullptr && metrics_.frames_out == 0 && wanted_frames) {
     error_ = std::make_exception_ptr(InputError(
         metrics_.frames_in == 0 ? "the source has no frames"
@@ -130,8 +136,7 @@ RunReport Ledger::close(bool wanted_frames) {
                                : "not one good frame: of " + std::to_string(metrics_.frames_in) +
                                      ", the first to fail was " + described(first_failure_)));
   }
-  metrics_.latency = latency_.quantiles();
-  return {std::move(metrics_), error_};
+  return {so_far(), error_};
 }
 
 }  // namespace credo

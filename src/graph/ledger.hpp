@@ -29,7 +29,9 @@ public:
   [[nodiscard]] bool ended() const { return ended_; }
   /// Waits until so many frames have been settled.
   void wait_until_settled(std::uint64_t frames);
-  /// The counts, the times and the error; after the last frame. `wanted_frames`: false where the
+  /// The counts and times so far. Called by the thread that settles.
+  [[nodiscard]] RunMetrics so_far() const;
+  /// The same with the error; after the last frame. `wanted_frames`: false where the
   /// run was stopped on request, when not one good frame is no error.
   RunReport close(bool wanted_frames);
 

@@ -3,6 +3,8 @@
 #include <oneapi/tbb/flow_graph.h>
 
 #include <algorithm>
+#include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +18,8 @@
 
 namespace credo {
 namespace {
+
+constexpr auto kMetricsInterval = std::chrono::seconds(1);
 
 /// What the bodies of the nodes do with a job. None of them throws.
 class Bodies {
@@ -84,7 +88,17 @@ public:
     }
   }
 
-  void sink(Job& job) { ledger_.settle(job); }
+  void sink(Job& job) {
+    ledger_.settle(job);
+    auto const now = Job::Clock::now();
+    if (tell_metrics && now - told_metrics_ >= kMetricsInterval) {
+      told_metrics_ = now;
+      tell_metrics(ledger_.so_far());
+    }
+  }
+
+  /// Set before the first job, where someone asks for metrics.
+  std::function<void(RunMetrics)> tell_metrics;
 
 private:
   /// A stage that throws costs its frame.
@@ -113,6 +127,7 @@ private:
   GraphConfig const& config_;
   BeliefTrail trail_;
   Ledger ledger_;
+  Job::Clock::time_point told_metrics_ = Job::Clock::now();
 };
 
 /// The whole graph: seven edges and the stages between them.
@@ -168,6 +183,24 @@ Pipeline::Pipeline(tbb::flow::graph& graph, Bodies& bodies, EdgesConfig const& c
 }
 // clang-format on
 
+/// With the times of the stages and the state of the queues.
+RunMetrics measured(RunMetrics counts, FrameReader const& reader, Pipeline const& pipeline) {
+  counts.stages.emplace_back("capture", reader.durations());
+  for (StageNode const* node :
+       {&pipeline.normals, &pipeline.detection, &pipeline.planes, &pipeline.clustering,
+        &pipeline.fusion, &pipeline.encoding, &pipeline.sink}) {
+    counts.stages.emplace_back(node->name(), node->durations());
+  }
+  for (Edge const* edge :
+       {&pipeline.capture_normals, &pipeline.normals_detection, &pipeline.detection_planes,
+        &pipeline.planes_clustering, &pipeline.clustering_fusion, &pipeline.fusion_encoding,
+        &pipeline.encoding_sink}) {
+    QueueStats const stats = edge->queue.stats();
+    counts.queues.emplace_back(edge->name, QueueMetrics{stats.capacity, stats.peak, stats.dropped});
+  }
+  return counts;
+}
+
 }  // namespace
 
 RunReport run_pipeline(FrameSource& source, Stages const& stages, RunSink const& sink,
@@ -181,6 +214,11 @@ RunReport run_pipeline(FrameSource& source, Stages const& stages, RunSink const&
   Pipeline pipeline(*graph, bodies, config.edges, static_cast<std::size_t>(workers.threads()));
 
   FrameReader reader(source);
+  if (sink.metrics) {
+    bodies.tell_metrics = [&](RunMetrics counts) {
+      sink.metrics(measured(std::move(counts), reader, pipeline));
+    };
+  }
   while (!stop.stop_requested() && !ledger.ended()) {
     JobPtr job = reader.next();
     if (job == nullptr) {
@@ -196,20 +234,7 @@ RunReport run_pipeline(FrameSource& source, Stages const& stages, RunSink const&
   if (reader.error() != nullptr) {
     report.error = reader.error();
   }
-  report.metrics.stages.emplace_back("capture", reader.durations().quantiles());
-  for (StageNode const* node :
-       {&pipeline.normals, &pipeline.detection, &pipeline.planes, &pipeline.clustering,
-        &pipeline.fusion, &pipeline.encoding, &pipeline.sink}) {
-    report.metrics.stages.emplace_back(node->name(), node->durations().quantiles());
-  }
-  for (Edge const* edge :
-       {&pipeline.capture_normals, &pipeline.normals_detection, &pipeline.detection_planes,
-        &pipeline.planes_clustering, &pipeline.clustering_fusion, &pipeline.fusion_encoding,
-        &pipeline.encoding_sink}) {
-    QueueStats const stats = edge->queue.stats();
-    report.metrics.queues.emplace_back(edge->name,
-                                       QueueMetrics{stats.capacity, stats.peak, stats.dropped});
-  }
+  report.metrics = measured(std::move(report.metrics), reader, pipeline);
   return report;
 }
 

@@ -59,6 +59,8 @@ WorldLevel find_level_ahead(ReadAhead& source, PoseConfig const& config) {
         return level;
       }
       first = first == nullptr ? *frame : first;
+    } else if (std::get<FrameFailure>(result).silence) {
+      break;
     }
   }
   return first == nullptr ? find_level({}, config) : find_level({&first, 1}, config);

@@ -33,7 +33,8 @@ private:
 };
 
 /// Finds the level by the first frame that shows the floor, among the first `pose.level_frames`;
-/// reads no further than that one. Bad frames are passed over.
+/// reads no further than that one. Bad frames are passed over; a source that has fallen silent
+/// ends the search.
 WorldLevel find_level_ahead(ReadAhead& source, PoseConfig const& config);
 
 }  // namespace credo

@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "io/metrics.hpp"
+#include "core/run_metrics.hpp"
 
 namespace credo {
 

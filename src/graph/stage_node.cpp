@@ -97,4 +97,9 @@ void StageNode::finish(JobPtr job, std::uint64_t ticket) {
   }
 }
 
+DurationQuantiles StageNode::durations() const {
+  std::scoped_lock const lock(mutex_);
+  return durations_.quantiles();
+}
+
 }  // namespace credo

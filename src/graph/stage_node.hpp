@@ -62,8 +62,8 @@ public:
   void wakes(StageNode& other) { also_wakes_ = &other; }
 
   [[nodiscard]] std::string const& name() const { return name_; }
-  /// Time spent on each frame that was good when it came. When no job is in work.
-  [[nodiscard]] DurationHistogram const& durations() const { return durations_; }
+  /// Time spent on each frame that was good when it came. Any thread.
+  [[nodiscard]] DurationQuantiles durations() const;
 
 private:
   void advance();
@@ -79,7 +79,7 @@ private:
   Ready ready_;
   StageNode* also_wakes_ = nullptr;
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   /// Jobs begun, and jobs passed on; the difference is in work or waits in `finished_`.
   std::uint64_t begun_ = 0;
   std::uint64_t passed_on_ = 0;

@@ -139,7 +139,7 @@ public:
       }
       if (Clock::now() > waits_until_) {
         waits_until_ = Clock::now() + kStallAfter;
-        return FrameFailure{next_index(), kStalled, name() + ": sends no depth"};
+        return FrameFailure{next_index(), "stalled", name() + ": sends no depth", true};
       }
     }
     return EndOfSource{};

@@ -18,13 +18,10 @@ namespace credo {
 ///
 /// Ends on `stop`, and where a recording ends. Throws InputError where there is no such sensor.
 /// Later:
-///  - FrameFailure "stalled": no depth for 2 s (10 s before the first)
+///  - FrameFailure "stalled", silence: no depth for 2 s (10 s before the first)
 ///  - InputError once the sensor is unplugged
 /// One such source at a time.
 OpenedSource open_openni(std::string const& uri, CaptureConfig const& capture,
                          PoseConfig const& pose, std::stop_token stop);
-
-/// The reason of a FrameFailure that says that the sensor is silent.
-inline constexpr char const* kStalled = "stalled";
 
 }  // namespace credo

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <array>
 #include <chrono>
 #include <csignal>
 #include <functional>
@@ -18,6 +17,7 @@
 #include "core/dds_config.hpp"
 #include "dds/participant.hpp"
 #include "end_to_end/program.hpp"
+#include "end_to_end/topic_reader.hpp"
 #include "support/paths.hpp"
 #include "things.h"
 
@@ -37,50 +37,33 @@ struct Topic {
 };
 
 template <typename State>
-class TopicReader {
+class ThingReader {
 public:
-  TopicReader(Participant const& participant, char const* name, dds_topic_descriptor_t const& type,
+  ThingReader(Participant const& participant, char const* name, dds_topic_descriptor_t const& type,
               std::function<std::string(State const&)> key,
               std::function<std::vector<float>(State const&)> points)
-      : key_(std::move(key)), points_(std::move(points)) {
-    dds_qos_t* qos = dds_create_qos();
-    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
-    dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
-    dds_entity_t const handle = dds_create_topic(participant.handle(), &type,
-                                                 participant.topic(name).c_str(), nullptr, nullptr);
-    reader_ = dds_create_reader(participant.handle(), handle, qos, nullptr);
-    dds_delete_qos(qos);
-  }
+      : reader_(participant, name, type), key_(std::move(key)), points_(std::move(points)) {}
 
   /// Takes what has come.
   void take() {
-    constexpr std::size_t kMost = 64;
-    std::array<void*, kMost> samples{};
-    std::array<dds_sample_info_t, kMost> infos{};
-    dds_return_t const count = dds_take(reader_, samples.data(), infos.data(), kMost, kMost);
-    for (dds_return_t i = 0; i < count; ++i) {
-      auto const at = static_cast<std::size_t>(i);
-      auto const& state = *static_cast<State const*>(samples[at]);
+    reader_.take([&](State const& state, dds_sample_info_t const& info) {
       std::string const key = key_(state);
-      if (infos[at].valid_data) {
+      if (info.valid_data) {
         topic.points[key] = points_(state);
         topic.revisions[key] = state.revision;
       }
-      if (infos[at].instance_state != DDS_IST_ALIVE) {
+      if (info.instance_state != DDS_IST_ALIVE) {
         topic.points.erase(key);
         topic.revisions.erase(key);
         topic.disposed.push_back(key);
       }
-    }
-    if (count > 0) {
-      dds_return_loan(reader_, samples.data(), count);
-    }
+    });
   }
 
   Topic<State> topic;
 
 private:
-  dds_entity_t reader_ = 0;
+  TopicReader<State> reader_;
   std::function<std::string(State const&)> key_;
   std::function<std::vector<float>(State const&)> points_;
 };
@@ -100,19 +83,19 @@ protected:
 // The bottle is moved: what stood at its first place leaves the belief, and so its topic.
 TEST_F(Topics, EachThingIsAnInstanceThatGoesWithIt) {
   Participant const participant(config_);
-  TopicReader<credo_msg_StuffState> stuff(
+  ThingReader<credo_msg_StuffState> stuff(
       participant, "stuff", credo_msg_StuffState_desc,
       [](auto const& state) { return std::to_string(state.stuff_id); },
       [](auto const& state) { return values(state.points_world_m); });
-  TopicReader<credo_msg_ObjectState> objects(
+  ThingReader<credo_msg_ObjectState> objects(
       participant, "objects", credo_msg_ObjectState_desc,
       [](auto const& state) { return std::string(state.object_id); },
       [](auto const& /*state*/) { return std::vector<float>(); });
-  TopicReader<credo_msg_WallState> walls(
+  ThingReader<credo_msg_WallState> walls(
       participant, "walls", credo_msg_WallState_desc,
       [](auto const& state) { return std::to_string(state.wall_id); },
       [](auto const& state) { return values(state.points_world_m); });
-  TopicReader<credo_msg_FloorState> floor(
+  ThingReader<credo_msg_FloorState> floor(
       participant, "floor", credo_msg_FloorState_desc,
       [](auto const& state) { return std::string(state.source); },
       [](auto const& state) { return values(state.points_world_m); });
@@ -190,7 +173,7 @@ camera:
     - {time_s: 1, position_m: [1.5, 0, 2.5], look_at_m: [4, 0, 2.5]}
 )");
   Participant const participant(config_);
-  TopicReader<credo_msg_FloorState> floor(
+  ThingReader<credo_msg_FloorState> floor(
       participant, "floor", credo_msg_FloorState_desc,
       [](auto const& state) { return std::string(state.source); },
       [](auto const& state) { return values(state.points_world_m); });

@@ -61,9 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
                  {"run", "--source", "dataset:"},
                  "--source dataset:: names no source; write dataset:DIR, oni:FILE, openni: or "
                  "sim:NAME-or-FILE"},
-        BadUsage{"Oni",
-                 {"run", "--source", "oni:a.oni"},
-                 "a.oni: no such recording"},
+        BadUsage{"Oni", {"run", "--source", "oni:a.oni"}, "a.oni: no such recording"},
         BadUsage{"NoFolder",
                  {"run", "--source", "dataset:/nowhere"},
                  "dataset /nowhere: no such folder"},

@@ -132,6 +132,18 @@ TEST(FindLevelAhead, LosesNoFrameAndFallsBackToTheConfigWithoutAFloor) {
   EXPECT_EQ(rest_of(source), test::first(6));
 }
 
+// Each of its failures would take seconds.
+TEST(FindLevelAhead, DoesNotWaitForASilentSource) {
+  auto fake = std::make_unique<test::FakeSource>(9, [](std::int64_t index) -> SourceResult {
+    return FrameFailure{FrameIndex{index}, "stalled", "no frame", index == 3};
+  });
+  test::FakeSource const& inner = *fake;
+  ReadAhead source(std::move(fake));
+  EXPECT_FALSE(find_level_ahead(source, {}).floor_found);
+  EXPECT_EQ(inner.given(), 4);
+  EXPECT_EQ(rest_of(source), test::first(9));
+}
+
 TEST(FindLevelAhead, ReadsNothingWhereTheSourceIsLevel) {
   auto fake = std::make_unique<test::FakeSource>(6);
   test::FakeSource const& inner = *fake;

@@ -104,7 +104,8 @@ TEST_F(OpenniSource, SilenceIsAFailureAndStopsOnRequest) {
     result = opened.source->next();
   }
   auto const& failure = std::get<FrameFailure>(result);
-  EXPECT_EQ(failure.reason, kStalled);
+  EXPECT_EQ(failure.reason, "stalled");
+  EXPECT_TRUE(failure.silence);
   EXPECT_THAT(failure.message, HasSubstr("sends no depth"));
   stop.request_stop();
   EXPECT_TRUE(std::holds_alternative<EndOfSource>(opened.source->next()));
