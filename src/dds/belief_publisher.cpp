@@ -35,12 +35,11 @@ BeliefPublisher::BeliefPublisher(DdsConfig const& config)
 
 void BeliefPublisher::publish(BeliefState const& belief, BeliefSummary const& summary) {
   ++revision_;
-  dropped_ += things_.write(belief, summary, revision_);
-  // The last one, so that whoever sees it finds the things of its revision written.
+  // First, because it is small and tells what else to wait for: with the points of 200 things
+  // before it, ten readers on two cores would have it 5 ms later.
   BeliefMessage const message(participant_.source(), revision_, summary);
-  if (dds_write(beliefs_.handle(), &message.sample()) != DDS_RETCODE_OK) {
-    ++dropped_;
-  }
+  dropped_ += write_now(beliefs_, message.sample()) ? 0U : 1U;
+  dropped_ += things_.write(belief, summary, revision_);
 }
 
 void BeliefPublisher::publish(Segmentation const& segmentation,
@@ -58,9 +57,7 @@ void BeliefPublisher::tell(LifecycleState state, std::string detail) {
   sample.source = source.data();
   sample.state = message_of(state);
   sample.detail = detail.data();
-  if (dds_write(lifecycle_.handle(), &sample) != DDS_RETCODE_OK) {
-    ++dropped_;
-  }
+  dropped_ += write_now(lifecycle_, sample) ? 0U : 1U;
 }
 
 }  // namespace credo

@@ -14,11 +14,11 @@ namespace credo {
 
 enum class LifecycleState : std::uint8_t { kRunning, kSourceLost, kLingering, kStopping };
 
-/// Puts the belief on DDS: each thing with its points, then <prefix>/belief as a whole, after every
-/// frame; and <prefix>/lifecycle. The last sample of each is kept for whoever comes late (reliable,
-/// transient local). <prefix>/segmentation and <prefix>/metrics are sent once (best effort). A
-/// reader that is slow or dead costs it samples, never this process its time. Gone from the
-/// readers' view with this object.
+/// Puts the belief on DDS after every frame: <prefix>/belief as a whole, then each thing with its
+/// points; and <prefix>/lifecycle. The last sample of each is kept for whoever comes late
+/// (reliable, transient local). <prefix>/segmentation and <prefix>/metrics are sent once (best
+/// effort). A reader that is slow or dead costs it samples, never this process its time. Gone from
+/// the readers' view with this object.
 class BeliefPublisher {
 public:
   /// Throws InputError where DDS refuses (Participant).

@@ -64,6 +64,20 @@ inline DdsEntity writer_of(Participant const& participant, char const* name,
                  "writer of " + topic_name);
 }
 
+/// Sends what was written: with write batching, small samples wait to share a packet. Does nothing
+/// without.
+inline void flush(DdsEntity const& writer) {
+  dds_write_flush(writer.handle());
+}
+
+/// Writes and sends. False where DDS did not take it at once.
+template <typename Sample>
+bool write_now(DdsEntity const& writer, Sample const& sample) {
+  bool const taken = dds_write(writer.handle(), &sample) == DDS_RETCODE_OK;
+  flush(writer);
+  return taken;
+}
+
 /// Whether a sample would reach anyone: large ones are not made for nobody.
 inline bool has_readers(DdsEntity const& writer) {
   dds_publication_matched_status_t status{};

@@ -57,7 +57,7 @@ bool MetricsWriter::write(RunMetrics metrics, std::uint64_t dds_dropped) {
   sample.stages = lent<dds_sequence_credo_msg_StageTime>(stages);
   sample.queues = lent<dds_sequence_credo_msg_QueueState>(queues);
   sample.dds_dropped = dds_dropped;
-  return dds_write(writer_.handle(), &sample) == DDS_RETCODE_OK;
+  return write_now(writer_, sample);
 }
 
 }  // namespace credo

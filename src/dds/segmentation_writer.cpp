@@ -68,7 +68,7 @@ bool SegmentationWriter::write(Segmentation const& segmentation, CameraIntrinsic
   sample.height_px = static_cast<std::uint32_t>(segmentation.labels.height());
   sample.labels = lent<decltype(sample.labels)>(labels);
   sample.segments = lent<dds_sequence_credo_msg_Segment>(segments);
-  return dds_write(writer_.handle(), &sample) == DDS_RETCODE_OK;
+  return write_now(writer_, sample);
 }
 
 }  // namespace credo

@@ -103,6 +103,9 @@ std::uint64_t ThingWriters::write(BeliefState const& belief, BeliefSummary summa
   dispose_gone(stuff_ids_, std::move(stuff), [&](std::uint32_t id) {
     writes.dispose(stuff_, credo_msg_StuffState{source_.data(), id, revision, {}, {}});
   });
+  for (DdsEntity const* writer : {&floor_, &walls_, &objects_, &stuff_}) {
+    flush(*writer);
+  }
   return writes.failed();
 }
 
