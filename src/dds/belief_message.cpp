@@ -38,10 +38,10 @@ auto summaries_in(Sequence const& sequence, ToSummary const& to_summary) {
 struct BeliefMessage::Parts {
   std::string source;
   BeliefSummary belief;
-  std::vector<credo_msg_Floor> floor;
-  std::vector<credo_msg_Wall> walls;
+  std::vector<credo_msg_FloorPlane> floor;
+  std::vector<credo_msg_WallSegment> walls;
   std::vector<credo_msg_KnownObject> objects;
-  std::vector<credo_msg_Stuff> stuff;
+  std::vector<credo_msg_StuffItem> stuff;
   credo_msg_Belief sample{};
 };
 
@@ -53,9 +53,9 @@ BeliefMessage::BeliefMessage(std::string source, std::uint64_t revision, BeliefS
   if (parts.belief.floor) {
     parts.floor.push_back(message_of(*parts.belief.floor));
   }
-  parts.walls = messages_of<credo_msg_Wall>(parts.belief.walls);
+  parts.walls = messages_of<credo_msg_WallSegment>(parts.belief.walls);
   parts.objects = messages_of<credo_msg_KnownObject>(parts.belief.objects);
-  parts.stuff = messages_of<credo_msg_Stuff>(parts.belief.stuff);
+  parts.stuff = messages_of<credo_msg_StuffItem>(parts.belief.stuff);
   credo_msg_Belief& sample = parts.sample;
   sample.source = parts.source.data();
   sample.revision = revision;

@@ -11,7 +11,7 @@
 namespace credo {
 namespace {
 
-credo_msg_Duration message_of(DurationQuantiles const& duration) {
+credo_msg_DurationQuantiles message_of(DurationQuantiles const& duration) {
   return {duration.count, duration.p50_ms, duration.p95_ms, duration.p99_ms, duration.max_ms};
 }
 

@@ -27,11 +27,11 @@ Evidence evidence_in(credo_msg_Evidence evidence) {
   return static_cast<Evidence>(found - std::begin(kEvidences));
 }
 
-credo_msg_Label message_of(std::optional<LabelCode> const& label) {
+credo_msg_PixelLabel message_of(std::optional<LabelCode> const& label) {
   return {label.has_value(), label.value_or(0)};
 }
 
-std::optional<LabelCode> label_in(credo_msg_Label const& label) {
+std::optional<LabelCode> label_in(credo_msg_PixelLabel const& label) {
   return label.given ? std::optional<LabelCode>(label.code) : std::nullopt;
 }
 
@@ -50,16 +50,16 @@ using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
 }  // namespace
 
-credo_msg_Floor message_of(FloorSummary const& floor) {
-  credo_msg_Floor message{};
+credo_msg_FloorPlane message_of(FloorSummary const& floor) {
+  credo_msg_FloorPlane message{};
   put(floor.normal, message.normal_world);
   message.height_m = floor.height_m;
   message.point_count = floor.point_count;
   return message;
 }
 
-credo_msg_Wall message_of(WallSummary const& wall) {
-  credo_msg_Wall message{};
+credo_msg_WallSegment message_of(WallSummary const& wall) {
+  credo_msg_WallSegment message{};
   message.wall_id = wall.id;
   put(wall.segment_start_m, message.segment_start_world_m);
   put(wall.segment_end_m, message.segment_end_world_m);
@@ -82,8 +82,8 @@ credo_msg_KnownObject message_of(ObjectSummary& object) {
   return message;
 }
 
-credo_msg_Stuff message_of(StuffSummary const& stuff) {
-  credo_msg_Stuff message{};
+credo_msg_StuffItem message_of(StuffSummary const& stuff) {
+  credo_msg_StuffItem message{};
   message.stuff_id = stuff.id;
   message.probability = stuff.probability;
   message.history_count = stuff.history_count;
@@ -96,11 +96,11 @@ credo_msg_Stuff message_of(StuffSummary const& stuff) {
   return message;
 }
 
-FloorSummary floor_in(credo_msg_Floor const& message) {
+FloorSummary floor_in(credo_msg_FloorPlane const& message) {
   return {get(message.normal_world), message.height_m, message.point_count};
 }
 
-WallSummary wall_in(credo_msg_Wall const& message) {
+WallSummary wall_in(credo_msg_WallSegment const& message) {
   return {message.wall_id,
           get(message.segment_start_world_m),
           get(message.segment_end_world_m),
@@ -122,7 +122,7 @@ ObjectSummary object_in(credo_msg_KnownObject const& message) {
   return object;
 }
 
-StuffSummary stuff_in(credo_msg_Stuff const& message) {
+StuffSummary stuff_in(credo_msg_StuffItem const& message) {
   return {message.stuff_id,         message.probability,           message.history_count,
           message.pixel_count,      get(message.centroid_world_m), get(message.min_world_m),
           get(message.max_world_m), evidence_in(message.evidence), label_in(message.label)};

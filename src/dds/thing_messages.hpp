@@ -10,18 +10,18 @@ namespace credo {
 
 // The things of a belief as they travel (idl/credo/belief.idl).
 
-[[nodiscard]] credo_msg_Floor message_of(FloorSummary const& floor);
-[[nodiscard]] credo_msg_Wall message_of(WallSummary const& wall);
+[[nodiscard]] credo_msg_FloorPlane message_of(FloorSummary const& floor);
+[[nodiscard]] credo_msg_WallSegment message_of(WallSummary const& wall);
 /// Lends the names: DDS takes them by a pointer to char, though it does not write to them.
 [[nodiscard]] credo_msg_KnownObject message_of(ObjectSummary& object);
-[[nodiscard]] credo_msg_Stuff message_of(StuffSummary const& stuff);
+[[nodiscard]] credo_msg_StuffItem message_of(StuffSummary const& stuff);
 
 // The other way. Throws std::runtime_error for evidence that is none.
 
-[[nodiscard]] FloorSummary floor_in(credo_msg_Floor const& message);
-[[nodiscard]] WallSummary wall_in(credo_msg_Wall const& message);
+[[nodiscard]] FloorSummary floor_in(credo_msg_FloorPlane const& message);
+[[nodiscard]] WallSummary wall_in(credo_msg_WallSegment const& message);
 [[nodiscard]] ObjectSummary object_in(credo_msg_KnownObject const& message);
-[[nodiscard]] StuffSummary stuff_in(credo_msg_Stuff const& message);
+[[nodiscard]] StuffSummary stuff_in(credo_msg_StuffItem const& message);
 
 /// A sequence that lends the vector's elements.
 template <typename Sequence, typename Element>
