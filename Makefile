@@ -5,7 +5,7 @@ OUT    := out/demo
 SUDO   := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 # Whatever reads what others wrote, shares memory between threads or counts its own way through
 # arrays. CI, which has minutes, narrows it.
-SANITIZED ?= core config dataset intrinsics trajectory pcd image output mesh detections sim graph \
+SANITIZED ?= core config dataset intrinsics trajectory pcd image output mesh detections oni sim graph \
              planes reachability region_growing
 # Empty: all of .clang-tidy. CI, which has minutes, narrows it.
 TIDY_CHECKS ?=
