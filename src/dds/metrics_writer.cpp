@@ -15,11 +15,16 @@ credo_msg_DurationQuantiles message_of(DurationQuantiles const& duration) {
   return {duration.count, duration.p50_ms, duration.p95_ms, duration.p99_ms, duration.max_ms};
 }
 
-/// Reasons with their counts. The message lends the names, which it must not change.
+/// DDS takes texts by a pointer to char, though it does not write to them.
+char* lent_text(std::string const& text) {
+  return const_cast<char*>(text.c_str());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+}
+
 std::vector<credo_msg_FrameCount> counts_of(std::map<std::string, std::uint64_t> const& counts) {
   std::vector<credo_msg_FrameCount> messages;
+  messages.reserve(counts.size());
   for (auto const& [reason, count] : counts) {
-    messages.push_back({const_cast<char*>(reason.c_str()), count});  // NOLINT(*-const-cast)
+    messages.push_back({lent_text(reason), count});
   }
   return messages;
 }
@@ -30,16 +35,18 @@ MetricsWriter::MetricsWriter(Participant const& participant)
     : source_(participant.source()),
       writer_(writer_of(participant, "metrics", credo_msg_Metrics_desc, droppable_qos())) {}
 
-bool MetricsWriter::write(RunMetrics metrics, std::uint64_t dds_dropped) {
+bool MetricsWriter::write(RunMetrics const& metrics, std::uint64_t dds_dropped) {
   std::vector<credo_msg_FrameCount> failures = counts_of(metrics.failures);
   std::vector<credo_msg_FrameCount> dropped = counts_of(metrics.dropped);
   std::vector<credo_msg_StageTime> stages;
-  for (auto& [name, duration] : metrics.stages) {
-    stages.push_back({name.data(), message_of(duration)});
+  stages.reserve(metrics.stages.size());
+  for (auto const& [name, duration] : metrics.stages) {
+    stages.push_back({lent_text(name), message_of(duration)});
   }
   std::vector<credo_msg_QueueState> queues;
-  for (auto& [name, queue] : metrics.queues) {
-    queues.push_back({name.data(), queue.capacity, queue.peak, queue.dropped});
+  queues.reserve(metrics.queues.size());
+  for (auto const& [name, queue] : metrics.queues) {
+    queues.push_back({lent_text(name), queue.capacity, queue.peak, queue.dropped});
   }
   credo_msg_Metrics sample{};
   sample.source = source_.data();

@@ -14,7 +14,7 @@ public:
   explicit MetricsWriter(Participant const& participant);
 
   /// False where DDS did not take it at once.
-  bool write(RunMetrics metrics, std::uint64_t dds_dropped);
+  bool write(RunMetrics const& metrics, std::uint64_t dds_dropped);
 
 private:
   std::string source_;
