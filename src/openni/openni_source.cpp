@@ -153,7 +153,10 @@ private:
   void open() {
     char const* const uri = uri_.empty() ? openni::ANY_DEVICE : uri_.c_str();
     if (device_.open(uri) != openni::STATUS_OK) {
-      throw InputError(name() + ": no such sensor: " + openni_error());
+      throw InputError(uri_.empty() ? "openni: no sensor (" + openni_error() +
+                                          "): is one plugged in, and of a kind that OpenNI2 has a "
+                                          "driver for?"
+                                    : name() + ": no such sensor: " + openni_error());
     }
     listener_.uri = device_.getDeviceInfo().getUri();
     if (openni::PlaybackControl* playback = device_.getPlaybackControl()) {
