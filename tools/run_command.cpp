@@ -188,7 +188,8 @@ int run(RunCommand const& command) {
   PipelineConfig config = resolved_config(command.config);
   LoadedPrior loaded = prior_of(command, config);
   auto const known = known_objects(std::move(loaded.models), config, command.source);
-  OpenedSource opened = open_source(command.source, config.capture, config.pose, signals.token());
+  OpenedSource opened =
+      open_source(command.source, config.capture, config.pose, config.sim, signals.token());
   std::ranges::move(opened.warnings, std::back_inserter(loaded.warnings));
   std::optional<std::int64_t> const frames_to_come = frame_count(opened, command.frames);
   std::unique_ptr<BeliefPublisher> const publisher = publisher_of(command, config.dds);

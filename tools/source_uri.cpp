@@ -13,8 +13,9 @@
 namespace credo {
 namespace {
 
-OpenedSource open_sim(std::string const& name_or_file, PoseConfig const& pose) {
-  auto source = std::make_unique<SimSource>(load_scene(name_or_file), pose);
+OpenedSource open_sim(std::string const& name_or_file, PoseConfig const& pose,
+                      SimConfig const& sim) {
+  auto source = std::make_unique<SimSource>(load_scene(name_or_file), pose, sim);
   std::size_t const frame_count = source->frame_count();
   return {std::move(source), {}, frame_count};
 }
@@ -29,7 +30,8 @@ Scene load_scene(std::string const& name_or_file) {
 }
 
 OpenedSource open_source(std::string const& uri, CaptureConfig const& capture,
-                         PoseConfig const& pose, std::stop_token const& stop) {
+                         PoseConfig const& pose, SimConfig const& sim,
+                         std::stop_token const& stop) {
   std::size_t const colon = uri.find(':');
   std::string const scheme = colon == std::string::npos ? "" : uri.substr(0, colon);
   std::string const rest = colon == std::string::npos ? "" : uri.substr(colon + 1);
@@ -43,7 +45,7 @@ OpenedSource open_source(std::string const& uri, CaptureConfig const& capture,
     return open_oni(rest, capture, pose);
   }
   if (!rest.empty() && scheme == "sim") {
-    return open_sim(rest, pose);
+    return open_sim(rest, pose, sim);
   }
   throw InputError("--source " + uri +
                    ": names no source; write dataset:DIR, oni:FILE, openni: or sim:NAME-or-FILE");

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/capture_config.hpp"
+#include "core/sim_config.hpp"
 #include "io/dataset.hpp"
 #include "sim/scene.hpp"
 
@@ -16,6 +17,6 @@ Scene load_scene(std::string const& name_or_file);
 /// `openni:URI`; the last ends on `stop`. Throws InputError where it cannot be opened or is of no
 /// kind known.
 OpenedSource open_source(std::string const& uri, CaptureConfig const& capture,
-                         PoseConfig const& pose, std::stop_token const& stop);
+                         PoseConfig const& pose, SimConfig const& sim, std::stop_token const& stop);
 
 }  // namespace credo

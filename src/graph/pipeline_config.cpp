@@ -45,6 +45,7 @@ FieldList fields(PipelineConfig& config) {
   return {
       section("capture", fields(config.capture), "what recordings do not say about themselves"),
       section("pose", fields(config.pose), "camera poses and the level world"),
+      section("sim", fields(config.sim), "what a simulated scene's camera is like"),
       section("normals", fields(config.normals), "one normal per pixel"),
       section("detector", fields(config.detector), "the black box that finds known objects"),
       section("detection", fields(config.detection), "what of its answers the belief takes"),

@@ -6,6 +6,7 @@
 #include "core/dds_config.hpp"
 #include "core/detector_config.hpp"
 #include "core/fields.hpp"
+#include "core/sim_config.hpp"
 #include "graph/bounded_queue.hpp"
 #include "stages/clustering/clustering.hpp"
 #include "stages/detection/detection.hpp"
@@ -61,6 +62,7 @@ FieldList fields(GraphConfig& config);
 struct PipelineConfig {
   CaptureConfig capture;
   PoseConfig pose;
+  SimConfig sim;
   NormalsConfig normals;
   DetectorConfig detector;
   DetectionConfig detection;

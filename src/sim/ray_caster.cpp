@@ -175,6 +175,7 @@ void RayCaster::World::take_hit(RayPacket const& packet, std::size_t lane, Pixel
   }
   Eigen::Vector3d const ray_thing = body_view.R_thing_camera * packet.rays_camera[lane];
   double const camera_cosine = std::abs(entry.normal.dot(ray_thing)) / ray_thing.norm();
+  view.incidence_cosine[pixel] = static_cast<float>(camera_cosine);
   view.color[pixel] = shade(*body_view.body, entry,
                             body_view.eye_thing + entry.distance * ray_thing, camera_cosine);
 }
@@ -230,7 +231,7 @@ RenderedView RayCaster::render(Se3 const& T_world_camera) const {
   int const width = world_->camera.width_px;
   int const height = world_->camera.height_px;
   RenderedView view{Grid<float>(width, height), Grid<Rgb>(width, height, kNothing),
-                    Grid<std::int32_t>(width, height, -1)};
+                    Grid<std::int32_t>(width, height, -1), Grid<float>(width, height)};
   std::vector<BodyView> body_views;
   for (Body const& body : world_->bodies) {
     Se3 const T_thing_camera = body.T_world_thing.inverse() * T_world_camera;

@@ -18,6 +18,8 @@ struct RenderedView {
   Grid<Rgb> color;
   /// Position in Scene::things; -1 where nothing is hit, in range or not.
   Grid<std::int32_t> thing;
+  /// Of the angle between the ray and the surface's normal; 0 where nothing is hit.
+  Grid<float> incidence_cosine;
 };
 
 /// The bodies of a scene as it stands at one time, in a tree built once (Embree). Each ray is

@@ -133,6 +133,8 @@ FieldList fields(SceneThing& thing) {
       turn(thing.rpy_deg, 3, "turns about the fixed axes x, y, z"),
       {"color", NumbersTarget{&thing.color, 3, 3}, {0, 255}, "", "red, green, blue"},
       {"checker_m", &thing.checker_m, {0, 10}, "m", "side of a checkerboard's squares; 0 = plain"},
+      choice("surface", thing.surface, {"matte", "dark", "shiny", "glass"},
+             "how it returns the light of a depth camera; glass returns none"),
   };
 }
 
@@ -155,6 +157,8 @@ FieldList fields(SceneCamera& camera) {
       {"frames_per_s", &camera.frames_per_s, {0.1, 1000}, "1/s", "frame rate"},
       {"min_range_m", &camera.min_range_m, {0, 100}, "m", "nearer depth is not measured"},
       {"max_range_m", &camera.max_range_m, {0.1, 1000}, "m", "farther depth is not measured"},
+      choice("sensor", camera.sensor, {"ideal", "gaussian", "disparity"},
+             "how it measures depth; sim.sensor may choose another"),
       list_of("path", camera.path, "waypoints in order of time"),
   };
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "core/sim_config.hpp"
 
 namespace credo {
 
@@ -14,6 +15,14 @@ enum class SceneShape : std::uint8_t {
   kCylinder,  // size radius, height
   kSphere,    // size radius
   kTable,     // size x, y, height, thickness of the top, side of a leg
+};
+
+/// How its surface returns the light of a depth camera.
+enum class SceneSurface : std::uint8_t {
+  kMatte,
+  kDark,   // too little of it, far away
+  kShiny,  // like a mirror: too much or none
+  kGlass,  // none at all
 };
 
 /// What a thing is to the belief.
@@ -34,6 +43,7 @@ struct SceneThing {
   std::vector<double> color = {180, 180, 180};
   /// Side of the squares of a checkerboard in two shades; 0 for one shade.
   double checker_m = 0.0;
+  SceneSurface surface = SceneSurface::kMatte;
 };
 FieldList fields(SceneThing& thing);
 
@@ -55,6 +65,7 @@ struct SceneCamera {
   double frames_per_s = 30.0;
   double min_range_m = 0.4;
   double max_range_m = 8.0;
+  SensorModel sensor = SensorModel::kIdeal;
   std::vector<SceneWaypoint> path;
 };
 FieldList fields(SceneCamera& camera);

@@ -5,12 +5,16 @@
 
 #include "core/error.hpp"
 #include "sim/camera_path.hpp"
+#include "sim/depth_sensor.hpp"
 #include "sim/scene_time.hpp"
 
 namespace credo {
 
-SimSource::SimSource(Scene const& scene, PoseConfig const& pose)
-    : scene_(scene), has_poses_(pose.source == PoseSource::kRecorded) {
+SimSource::SimSource(Scene const& scene, PoseConfig const& pose, SimConfig const& sim)
+    : scene_(scene), has_poses_(pose.source == PoseSource::kRecorded), seed_(sim.seed) {
+  if (sim.sensor != SimConfig::Sensor::kOfScene) {
+    scene_.camera.sensor = static_cast<SensorModel>(static_cast<int>(sim.sensor) - 1);
+  }
   check_scene(scene);
   if (pose.source == PoseSource::kFile) {
     throw InputError("scene " + scene.name +
@@ -43,7 +47,8 @@ SourceResult SimSource::next() {
   double const since_s = time_s - scene_time_s(scene_, FrameIndex{0});
   frame->stamp_ns = static_cast<std::int64_t>(std::llround(since_s * 1e9));
   frame->intrinsics = {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
-  frame->cloud_camera = cloud_from_depth(std::move(view.depth_m), frame->intrinsics);
+  frame->cloud_camera = cloud_from_depth(measured_depth(view, scene_, camera.sensor, seed_, index),
+                                         frame->intrinsics);
   frame->color = std::move(view.color);
   frame->T_source_camera = has_poses_ ? T_world_camera : Se3{};
   return FramePtr(std::move(frame));

@@ -10,13 +10,13 @@
 
 namespace credo {
 
-/// Plays a scene as a noise-free RGB-D camera: a frame every 1 / frames_per_s from the first
-/// waypoint to the last, of the things as they stand then, with its true pose (source frame = the
-/// scene's world), or without where poses are `fixed`.
+/// Plays a scene as an RGB-D camera with the sensor that the scene or the config names: a frame
+/// every 1 / frames_per_s from the first waypoint to the last, of the things as they stand then,
+/// with its true pose (source frame = the scene's world), or without where poses are `fixed`.
 class SimSource : public FrameSource {
 public:
   /// Throws InputError for a scene that check_scene refuses, or pose.source: file.
-  SimSource(Scene const& scene, PoseConfig const& pose);
+  SimSource(Scene const& scene, PoseConfig const& pose, SimConfig const& sim = {});
 
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
   SourceResult next() override;
@@ -24,6 +24,7 @@ public:
 private:
   Scene scene_;
   bool has_poses_;
+  int seed_;
   /// Of the things after the first event_count_ events.
   std::unique_ptr<RayCaster const> caster_;
   std::size_t event_count_;
