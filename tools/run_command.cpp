@@ -181,39 +181,39 @@ void linger(RunCommand const& command, BeliefPublisher* publisher, std::stop_tok
   publisher->tell(LifecycleState::kStopping, command.source);
 }
 
-int run(RunCommand const& command) {
-  check_usage(command);
-  log_to_stderr();
-  StopOnSignal const signals;
-  PipelineConfig config = resolved_config(command.config);
-  LoadedPrior loaded = prior_of(command, config);
-  auto const known = known_objects(std::move(loaded.models), config, command.source);
-  OpenedSource opened =
-      open_source(command.source, config.capture, config.pose, config.sim, signals.token());
-  std::ranges::move(opened.warnings, std::back_inserter(loaded.warnings));
-  std::optional<std::int64_t> const frames_to_come = frame_count(opened, command.frames);
-  std::unique_ptr<BeliefPublisher> const publisher = publisher_of(command, config.dds);
-  ReadAhead source(std::move(opened.source), command.frames);
+/// What a run reads: opened, and all that needs no frame checked.
+struct Inputs {
+  PipelineConfig config;
+  LoadedPrior prior;
+  std::shared_ptr<KnownObjects const> known;
+  OpenedSource opened;
+};
+
+/// From the first frame to the last; throws what ends it early.
+void play(RunCommand const& command, Inputs inputs, BeliefPublisher* publisher,
+          std::stop_token const& stop) {
+  PipelineConfig const& config = inputs.config;
+  Prior const& prior = inputs.prior.prior;
+  std::optional<std::int64_t> const frames_to_come = frame_count(inputs.opened, command.frames);
+  ReadAhead source(std::move(inputs.opened.source), command.frames);
   Workers workers(config.graph.threads);
   WorldLevel const level = level_of(source, config, workers);
-  BeliefPtr const prior_world = first_belief(source, level, loaded.prior);
+  BeliefPtr const prior_world = first_belief(source, level, prior);
 
   // Nothing is written before all that can be checked has been, and bad input is told in one line.
   Dump const dump = dump_of(command);
   std::optional<RunFolder> folder;
   if (command.out.has_value()) {
-    folder.emplace(*command.out, dump.labels, dump.pictures, config_yaml(fields(config)));
+    folder.emplace(*command.out, dump.labels, dump.pictures, config_yaml(fields(inputs.config)));
   }
-  if (auto const warning = receive_buffer_warning(rmem_max_bytes()); warning && publisher) {
-    loaded.warnings.push_back(*warning);
-  }
-  log_start(loaded.warnings, level);
-  Outlines const outlines = outlines_of(known->models);
+  log_start(inputs.prior.warnings, level);
+  Outlines const outlines = outlines_of(inputs.known->models);
   Progress progress(frames_to_come);
-  RunReport const report = run_pipeline(source, make_stages(config, level, loaded.prior, known),
-                                        run_output(folder.has_value() ? &*folder : nullptr,
-                                                   publisher.get(), dump, outlines, progress),
-                                        config.graph, prior_world, workers, signals.token());
+  RunReport const report =
+      run_pipeline(source, make_stages(config, level, prior, inputs.known),
+                   run_output(folder.has_value() ? &*folder : nullptr, publisher, dump, outlines,
+                              progress, command.source),
+                   config.graph, prior_world, workers, stop);
   progress.finish();
   if (folder.has_value()) {
     folder->write_metrics(report.metrics);
@@ -226,6 +226,31 @@ int run(RunCommand const& command) {
   }
   std::cout << summary_table(report.metrics) << progress.detection_summary()
             << (publisher != nullptr ? dds_summary(*publisher) : "") << std::flush;
+}
+
+int run(RunCommand const& command) {
+  check_usage(command);
+  log_to_stderr();
+  StopOnSignal const signals;
+  Inputs inputs;
+  inputs.config = resolved_config(command.config);
+  inputs.prior = prior_of(command, inputs.config);
+  inputs.known = known_objects(std::move(inputs.prior.models), inputs.config, command.source);
+  inputs.opened = open_source(command.source, inputs.config.capture, inputs.config.pose,
+                              inputs.config.sim, signals.token());
+  std::ranges::move(inputs.opened.warnings, std::back_inserter(inputs.prior.warnings));
+  std::unique_ptr<BeliefPublisher> const publisher = publisher_of(command, inputs.config.dds);
+  if (auto const warning = receive_buffer_warning(rmem_max_bytes()); warning && publisher) {
+    inputs.prior.warnings.push_back(*warning);
+  }
+  try {
+    play(command, std::move(inputs), publisher.get(), signals.token());
+  } catch (std::exception const& error) {
+    if (publisher != nullptr) {
+      publisher->tell(LifecycleState::kStopping, error.what());
+    }
+    throw;
+  }
   linger(command, publisher.get(), signals.token());
   return 0;
 }

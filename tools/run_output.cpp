@@ -47,7 +47,7 @@ void write(RunFolder& folder, Files const& files, Dump const& dump) {
 }  // namespace
 
 RunSink run_output(RunFolder* folder, BeliefPublisher* publisher, Dump const& dump,
-                   Outlines const& outlines, Progress& progress) {
+                   Outlines const& outlines, Progress& progress, std::string const& source) {
   RunSink sink;
   auto const source_lost = std::make_shared<bool>(false);
   sink.encode = [=, &outlines, &progress](FrameResult const& result) -> Delivery {
@@ -63,7 +63,7 @@ RunSink run_output(RunFolder* folder, BeliefPublisher* publisher, Dump const& du
         publisher->publish(*result.belief, *belief);
         publisher->publish(*result.segmentation, result.frame->intrinsics);
         if (std::exchange(*source_lost, false)) {
-          publisher->tell(LifecycleState::kRunning, "");
+          publisher->tell(LifecycleState::kRunning, source);
         }
       }
       progress.show(result);
@@ -71,9 +71,9 @@ RunSink run_output(RunFolder* folder, BeliefPublisher* publisher, Dump const& du
   };
   sink.lost = [=, &progress](FrameFailure const& failure) {
     progress.lost(failure);
-    if (publisher != nullptr && failure.silence) {
-      *source_lost = true;
-      publisher->tell(LifecycleState::kSourceLost, failure.message);
+    if (publisher != nullptr && std::exchange(*source_lost, failure.silence) != failure.silence) {
+      publisher->tell(failure.silence ? LifecycleState::kSourceLost : LifecycleState::kRunning,
+                      failure.silence ? failure.message : source);
     }
   };
   if (publisher != nullptr) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/outline.hpp"
 #include "dds/belief_publisher.hpp"
 #include "graph/run_sink.hpp"
@@ -15,10 +17,10 @@ struct Dump {
 };
 
 /// A sink that writes into `folder` and publishes on DDS where these are not null, and shows
-/// `progress`; all three, and `outlines` (known objects, for pictures), outlive it. A frame's
-/// images are written before its line, and that before the belief is published, so that whoever
-/// sees one finds the other.
+/// `progress`; all three, and `outlines` (known objects, for pictures), outlive it. `source` is its
+/// URI, for the lifecycle. A frame's images are written before its line, and that before the belief
+/// is published, so that whoever sees one finds the other.
 RunSink run_output(RunFolder* folder, BeliefPublisher* publisher, Dump const& dump,
-                   Outlines const& outlines, Progress& progress);
+                   Outlines const& outlines, Progress& progress, std::string const& source);
 
 }  // namespace credo

@@ -3,6 +3,8 @@
 #include <utility>
 #include <variant>
 
+#include "core/error.hpp"
+
 namespace credo {
 
 ReadAhead::ReadAhead(std::unique_ptr<FrameSource> source, std::optional<std::int64_t> max_frames)
@@ -25,6 +27,10 @@ FramePtr ReadAhead::first_frame() {
     }
     if (std::holds_alternative<EndOfSource>(result)) {
       return nullptr;
+    }
+    if (auto const& failure = std::get<FrameFailure>(result); failure.silence) {
+      throw InputError("no first frame, which a prior in the camera's frame needs: " +
+                       failure.message);
     }
   }
 }

@@ -21,6 +21,7 @@ public:
   /// Reads one more frame; `next` gives it again in its turn. Points until the next call of either.
   SourceResult const& peek();
   /// The first good frame that `next` will give, read ahead if need be; none where there is none.
+  /// Throws InputError where the source falls silent before it.
   FramePtr first_frame();
   SourceResult next() override;
 

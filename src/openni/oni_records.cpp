@@ -131,14 +131,20 @@ public:
     Record record{offset, header.number<std::uint32_t>(), header.number<std::uint32_t>(),
                   header.number<std::uint32_t>(), header.number<std::uint32_t>()};
     header.number<std::uint64_t>();
-    bool const right = header.good() && magic == kRecordMagic && record.type > 0 &&
-                       record.type <= kLastType && record.fields_bytes >= kRecordHeaderBytes &&
-                       record.fields_bytes <= kMaxFieldsBytes &&
-                       record.payload_bytes <= kMaxPayloadBytes;
+    bool const right =
+        header.good() && magic == kRecordMagic && record.type > 0 && record.type <= kLastType &&
+        record.fields_bytes >= kRecordHeaderBytes && record.fields_bytes <= kMaxFieldsBytes &&
+        record.payload_bytes <= kMaxPayloadBytes &&
+        (record.type != kEnd || record.fields_bytes + record.payload_bytes == kRecordHeaderBytes);
     return right ? std::optional(record) : std::nullopt;
   }
 
-  /// The next record after `offset` that is whole and is followed by another or by nothing.
+  /// Whether another record begins where this one ends, or none is due.
+  bool followed(Record const& one) {
+    return one.end() == size_ || (one.end() < size_ && (one.type == kEnd || record(one.end())));
+  }
+
+  /// The next record from `offset` on that is whole and is followed by another or by nothing.
   std::optional<Record> next_whole(std::uint64_t offset) {
     constexpr std::size_t kBlock = 1 << 16;
     for (std::uint64_t at = offset; at + kRecordHeaderBytes <= size_; at += kBlock) {
@@ -148,8 +154,7 @@ public:
       for (std::size_t found = block.find("NIR"); found != std::string::npos && found < kBlock;
            found = block.find("NIR", found + 1)) {
         std::optional<Record> const candidate = record(at + found);
-        if (candidate && candidate->end() <= size_ &&
-            (candidate->type == kEnd || candidate->end() == size_ || record(candidate->end()))) {
+        if (candidate && followed(*candidate)) {
           return candidate;
         }
       }
@@ -173,19 +178,24 @@ public:
     bool ended = false;
     while (!ended) {
       std::optional<Record> record = file_.record(at);
-      if (record && record->end() > file_.size()) {
-        cut_off(*record);
-        break;
-      }
       if (at + kRecordHeaderBytes > file_.size()) {
         break;
       }
-      if (!record) {
-        record = file_.next_whole(at);
-        skipped(at, record ? record->offset : file_.size());
-        if (!record) {
+      if (!record || !file_.followed(*record)) {
+        std::optional<Record> const next = file_.next_whole(at + 1);
+        bool const within = next && (!record || next->offset < record->end());
+        if (within) {
+          // Damaged: what is whole begins before it ends.
+          skipped(at, next->offset);
+          record = next;
+        } else if (!record) {
+          skipped(at, file_.size());
+          break;
+        } else if (record->end() > file_.size()) {
+          cut_off(*record);
           break;
         }
+        // Else it is whole, and the one after it is not.
       }
       ended = record->type == kEnd;
       enter(*record);
@@ -318,7 +328,7 @@ private:
   void tell_missing(Node const& node, char const* what, std::vector<std::string>& warnings) const {
     auto const whole = static_cast<std::size_t>(std::ranges::count_if(
         node.stream.images, [](OniImage const& image) { return !image.lost; }));
-    // Damaged itself where so many would not have had room.
+    // Recorders that were killed leave no count, or one that is none.
     bool const plausible = node.promised_images <= kMaxImages;
     std::size_t const all =
         std::max<std::size_t>(plausible ? node.promised_images : 0, node.stream.images.size());

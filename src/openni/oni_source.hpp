@@ -15,6 +15,9 @@ namespace credo {
 /// are the recording's. Intrinsics: the config's, else of the recorded field of view. Poses: of
 /// pose.file, else the sensor stands still.
 ///
+/// A long gap of lost images ends a run as other failures in a row do
+/// (graph.max_consecutive_failures).
+///
 /// Throws InputError as index_oni does, and where the config does not fit. Later each bad frame is
 /// a FrameFailure:
 ///  - lost_image: its bytes are damaged or cut off

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -54,11 +55,11 @@ public:
   ~Library() { openni::OpenNI::shutdown(); }
 };
 
-/// Hears of the device from OpenNI's threads: an unplugged one stays "valid".
+/// Hears of a device from OpenNI's threads: an unplugged one stays "valid".
 class Listener : public openni::OpenNI::DeviceDisconnectedListener,
                  public openni::OpenNI::DeviceStateChangedListener {
 public:
-  Listener() {
+  explicit Listener(std::string uri) : uri_(std::move(uri)) {
     openni::OpenNI::addDeviceDisconnectedListener(this);
     openni::OpenNI::addDeviceStateChangedListener(this);
   }
@@ -72,20 +73,20 @@ public:
   }
 
   void onDeviceDisconnected(openni::DeviceInfo const* info) override {
-    if (uri == info->getUri()) {
-      unplugged = true;
-    }
+    unplugged_ = unplugged_ || uri_ == info->getUri();
   }
   void onDeviceStateChanged(openni::DeviceInfo const* info, openni::DeviceState state) override {
     // The only word that OpenNI has for the end of a recording.
-    if (uri == info->getUri() && state == openni::DEVICE_STATE_EOF) {
-      at_end = true;
-    }
+    at_end_ = at_end_ || (uri_ == info->getUri() && state == openni::DEVICE_STATE_EOF);
   }
 
-  std::string uri;  // set before the streams start
-  std::atomic<bool> unplugged = false;
-  std::atomic<bool> at_end = false;
+  [[nodiscard]] bool unplugged() const { return unplugged_; }
+  [[nodiscard]] bool at_end() const { return at_end_; }
+
+private:
+  std::string uri_;
+  std::atomic<bool> unplugged_ = false;
+  std::atomic<bool> at_end_ = false;
 };
 
 struct ColorImage {
@@ -117,38 +118,41 @@ public:
   OpenniSource(OpenniSource&&) = delete;
   OpenniSource& operator=(OpenniSource&&) = delete;
   ~OpenniSource() override {
+    // Its player of recordings has crashed where streams went while it still played.
+    depth_.stop();
+    color_.stop();
+    device_.close();
     depth_.destroy();
     color_.destroy();
-    device_.close();
   }
 
   [[nodiscard]] std::vector<std::string> const& warnings() const { return warnings_; }
 
   SourceResult next() override {
+    // Time that the caller took is not the sensor's silence.
+    auto const deadline = std::max(waits_until_, Clock::now() + kStallAfter);
     while (!stop_.stop_requested()) {
-      if (listener_.unplugged) {
+      if (listener_->unplugged()) {
         throw InputError(name() + ": was unplugged");
       }
-      FramePtr frame = wait_and_take();
-      if (frame != nullptr) {
-        waits_until_ = Clock::now() + kStallAfter;
+      bool const came = wait_and_take();
+      if (FramePtr frame = std::exchange(ready_, nullptr)) {
+        waits_until_ = {};
         return frame;
       }
-      if (waiting_ == nullptr && listener_.at_end) {
+      if (!came && listener_->at_end()) {
         break;
       }
-      if (Clock::now() > waits_until_) {
-        waits_until_ = Clock::now() + kStallAfter;
-        return FrameFailure{next_index(), "stalled", name() + ": sends no depth", true};
+      if (!came && Clock::now() > deadline) {
+        waits_until_ = {};
+        return FrameFailure{next_index(), "stalled", name() + ": sends no depth" + why_, true};
       }
     }
     return EndOfSource{};
   }
 
 private:
-  [[nodiscard]] std::string name() const {
-    return "openni:" + (uri_.empty() ? listener_.uri : uri_);
-  }
+  [[nodiscard]] std::string name() const { return "openni:" + uri_; }
 
   void open() {
     char const* const uri = uri_.empty() ? openni::ANY_DEVICE : uri_.c_str();
@@ -158,7 +162,7 @@ private:
                                           "driver for?"
                                     : name() + ": no such sensor: " + openni_error());
     }
-    listener_.uri = device_.getDeviceInfo().getUri();
+    listener_.emplace(device_.getDeviceInfo().getUri());
     if (openni::PlaybackControl* playback = device_.getPlaybackControl()) {
       playback->setRepeatEnabled(false);
     }
@@ -219,20 +223,25 @@ private:
     return static_cast<std::int64_t>(frame.getTimestamp()) * 1000;
   }
 
-  /// Takes the next image of either stream, waiting for it a little. A frame once its depth has met
-  /// its colour, or that has not come in time; else null.
-  FramePtr wait_and_take() {
+  /// Takes the next image of either stream, waiting for it a little; false where none came. Leaves
+  /// a frame in ready_ once its depth has met its colour, or that has not come in time.
+  bool wait_and_take() {
     std::array<openni::VideoStream*, 2> streams = {&depth_, &color_};
-    int ready = -1;
+    int which = -1;
     openni::Status const status =
-        openni::OpenNI::waitForAnyStream(streams.data(), color_.isValid() ? 2 : 1, &ready,
+        openni::OpenNI::waitForAnyStream(streams.data(), color_.isValid() ? 2 : 1, &which,
                                          waiting_ != nullptr ? kColorGrace_ms : kTick_ms);
     if (status != openni::STATUS_OK) {
-      return released();
+      why_.clear();
+      if (status != openni::STATUS_TIME_OUT) {
+        why_ = " (" + openni_error() + ")";
+        std::this_thread::sleep_for(std::chrono::milliseconds(kTick_ms));  // it does not wait
+      }
+      release();
+      return false;
     }
-    FramePtr late;
-    if (ready == 0) {
-      late = released();
+    if (which == 0) {
+      release();
       waiting_ = take_depth();
     } else {
       take_color();
@@ -240,16 +249,19 @@ private:
     bool const met =
         waiting_ != nullptr &&
         (!color_.isValid() || (!colors_.empty() && colors_.back().stamp_ns >= waiting_->stamp_ns));
-    return late == nullptr && met ? released() : late;
+    if (ready_ == nullptr && met) {
+      release();
+    }
+    return true;
   }
 
-  FramePtr released() {
-    if (waiting_ == nullptr) {
-      return nullptr;
+  /// The depth image that waits, with the colour that has come, is ready.
+  void release() {
+    if (waiting_ != nullptr) {
+      waiting_->index = next_index();
+      waiting_->color = color_near(waiting_->stamp_ns);
+      ready_ = std::exchange(waiting_, nullptr);
     }
-    waiting_->index = next_index();
-    waiting_->color = color_near(waiting_->stamp_ns);
-    return std::exchange(waiting_, nullptr);
   }
 
   void take_color() {
@@ -298,8 +310,8 @@ private:
   std::stop_token stop_;
   // In this order: the library goes last.
   Library library_;
-  Listener listener_;
   openni::Device device_;
+  std::optional<Listener> listener_;
   openni::VideoStream depth_;
   openni::VideoStream color_;
   openni::VideoMode mode_;
@@ -308,7 +320,11 @@ private:
   std::vector<ColorImage> colors_;
   /// A depth image whose colour may still come.
   std::shared_ptr<Frame> waiting_;
+  FramePtr ready_;
+  /// What OpenNI2 said where it did not wait for an image.
+  std::string why_;
   std::int64_t frames_ = 0;
+  /// Until then silence is no fault.
   Clock::time_point waits_until_;
 };
 

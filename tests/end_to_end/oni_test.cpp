@@ -33,7 +33,7 @@ protected:
 TEST_F(LivingRoom, RunsWithItsFloorAndWall) {
   CREDO_REQUIRE_RECORDING("oni/living-room.oni");
   Ended const ended = run("oni:" + recording().string());
-  EXPECT_EQ(ended.code, 0) << ended.err;
+  ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("12 frames in, 12 out, 0 failed, 0 dropped"));
   EXPECT_THAT(contract_faults(out()), IsEmpty());
   json const last = json::parse(read_lines(out() / "belief.jsonl").back());

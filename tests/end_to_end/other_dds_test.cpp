@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <string>
+#include <vector>
 
 #include "end_to_end/program.hpp"
 #include "support/paths.hpp"
@@ -24,7 +25,9 @@ TEST(OtherDds, FastDdsReadsTheBeliefAsItIsInTheFile) {
   }
   Ended const read = Program({CREDO_FASTDDS_READER, prefix + "/belief", "20"}).wait();
   EXPECT_EQ(read.code, 0) << read.err;
-  EXPECT_EQ(read.out, read_lines(folder / "out/belief.jsonl").back() + "\n");
+  std::vector<std::string> const lines = read_lines(folder / "out/belief.jsonl");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(read.out, lines.back() + "\n");
   run.send(SIGINT);
   EXPECT_EQ(run.wait().code, 0);
 }

@@ -48,9 +48,9 @@ protected:
     return credo_command(arguments);
   }
 
-  /// Again and again for 20 s at most.
+  /// Again and again for a minute at most.
   static void until(std::function<bool()> const& done) {
-    for (int i = 0; i < 400 && !done(); ++i) {
+    for (int i = 0; i < 1200 && !done(); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
   }
@@ -70,7 +70,8 @@ TEST_F(StatusTopics, TheSegmentationIsTheLabelImage) {
   TopicReader<credo_msg_Segmentation> reader(participant, "segmentation",
                                              credo_msg_Segmentation_desc, Delivery::kBestEffort);
   std::map<std::int64_t, ReceivedSegmentation> received;
-  Program run(run_command({"--source", "sim:first-light", "--frames", "20", "--dump", "labels"}));
+  Program run(run_command(
+      {"--source", "sim:first-light", "--frames", "20", "--dump", "labels", "--linger", "60"}));
   std::int64_t last = -1;
   until([&] {
     reader.take([&](credo_msg_Segmentation const& sample, dds_sample_info_t const& info) {
@@ -93,6 +94,7 @@ TEST_F(StatusTopics, TheSegmentationIsTheLabelImage) {
     });
     return last == 19;
   });
+  run.send(SIGINT);
   EXPECT_EQ(run.wait().code, 0);
   // Best effort: some may have been missed, but not all.
   ASSERT_FALSE(received.empty());

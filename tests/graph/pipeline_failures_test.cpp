@@ -276,5 +276,24 @@ TEST(PipelineFailures, DropsAreNoFailuresInARow) {
   EXPECT_EQ(recorder.indices(), test::first(300));
 }
 
+// A sensor that has fallen silent may speak again: the run waits for it.
+TEST(PipelineFailures, SilenceIsNoFailureInARow) {
+  GraphConfig config;
+  config.threads = 1;
+  config.max_consecutive_failures = 3;
+  auto const silent_for_a_while = [](std::int64_t index) -> SourceResult {
+    if (index > 0 && index < 20) {
+      return FrameFailure{FrameIndex{index}, "stalled", "no frame", true};
+    }
+    return test::tiny_frame(index);
+  };
+  FakeSource source(25, silent_for_a_while);
+  Recorder recorder;
+  RunReport const report = run(source, test::fake_stages(), recorder.sink(0), config);
+  EXPECT_EQ(report.error, nullptr);
+  EXPECT_EQ(report.metrics.failures.at("stalled"), 19U);
+  EXPECT_EQ(report.metrics.frames_out, 6U);
+}
+
 }  // namespace
 }  // namespace credo

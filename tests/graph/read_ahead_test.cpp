@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/error.hpp"
 #include "graph/fakes.hpp"
 
 namespace credo {
@@ -102,6 +103,13 @@ TEST(FirstFrame, IsNoneWhereNoFrameIsGood) {
   EXPECT_TRUE(std::holds_alternative<EndOfSource>(source.next()));
   ReadAhead empty(std::make_unique<test::FakeSource>(0));
   EXPECT_EQ(first_index(empty), -1);
+}
+
+TEST(FirstFrame, OfASilentSourceIsNotWaitedFor) {
+  ReadAhead source(std::make_unique<test::FakeSource>(9, [](std::int64_t index) -> SourceResult {
+    return FrameFailure{FrameIndex{index}, "stalled", "no frame", index == 1};
+  }));
+  EXPECT_THROW(source.first_frame(), InputError);
 }
 
 TEST(FirstFrame, IsNoneBeyondTheFramesAskedFor) {

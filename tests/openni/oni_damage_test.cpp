@@ -150,6 +150,26 @@ TEST_F(OniDamage, ALongGapLosesWhatLayInIt) {
   EXPECT_EQ(result.lost.at("lost_image"), 3);
 }
 
+// A size that reaches beyond the file is no cut where whole records follow.
+TEST_F(OniDamage, ADamagedSizeLosesItsImageOnly) {
+  std::size_t const record = depth_image(2) - 40;
+  for (int bit = 0; bit < 32; ++bit) {
+    std::string damaged = bytes_;
+    damaged[record + 16 + static_cast<std::size_t>(bit / 8)] ^= static_cast<char>(1 << (bit % 8));
+    Outcome const result = outcome(damaged);
+    EXPECT_THAT(result.good, ElementsAre(0, 1, 3, 4, 5)) << "bit " << bit;
+    EXPECT_FALSE(result.warnings.empty()) << "bit " << bit;
+  }
+}
+
+TEST_F(OniDamage, ATypeThatBecomesAnEndIsNone) {
+  std::string damaged = bytes_;
+  damaged[depth_image(2) - 40 + 4] = 0x0B;
+  Outcome const result = outcome(damaged);
+  EXPECT_THAT(result.good, ElementsAre(0, 1, 3, 4, 5));
+  EXPECT_EQ(result.lost.at("lost_image"), 1);
+}
+
 TEST_F(OniDamage, ANumberThatIsNoneInventsNoFrames) {
   std::string damaged = bytes_;
   damaged.replace(depth_image(3) - 4, 4, "\xFF\xFF\xFF\x7F");
