@@ -18,6 +18,7 @@ constexpr char const* kExamples = R"(Examples:
   credo run --source dataset:recordings/kitchen --out out/kitchen --dump labels,pictures
   credo run --source dataset:recordings/kitchen --frames 40 --set graph.threads=1
   credo watch --json --once --timeout 5
+  credo simulate first-light --out data/room --set sim.sensor=disparity
   credo config --set fusion.prior_probability=0.9 > my.yaml
   credo run --source sim:first-light --config my.yaml --out out/room
 
@@ -41,6 +42,7 @@ int run_command_line(int argc, char** argv) {
   credo::Command chosen;
   credo::add_run_command(app, chosen);
   credo::add_watch_command(app, chosen);
+  credo::add_simulate_command(app, chosen);
   credo::add_config_command(app, chosen);
   try {
     app.parse(argc, argv);

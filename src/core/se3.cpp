@@ -20,7 +20,12 @@ Se3::Se3(Eigen::Quaterniond const& rotation, Eigen::Vector3d translation_m)
   if (!(norm > 1e-12) || !std::isfinite(norm)) {
     throw std::logic_error("Se3: quaternion of norm " + std::to_string(norm));
   }
-  rotation_.coeffs() /= norm;
+  // What is of unit length but for rounding stays as it is: normalising it anew would turn it by a
+  // last bit every time, and a pose that is written and read back would not be the same.
+  constexpr double kRounding = 1e-15;
+  if (std::abs(norm - 1.0) > kRounding) {
+    rotation_.coeffs() /= norm;
+  }
 }
 
 Se3 Se3::from_matrix(Eigen::Matrix4d const& matrix, double tolerance) {

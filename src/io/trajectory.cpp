@@ -135,6 +135,9 @@ std::optional<Se3> Trajectory::at(FrameIndex index, std::int64_t stamp_ns) const
 std::optional<Se3> Trajectory::at_stamp(std::int64_t stamp_ns) const {
   auto const after = static_cast<std::size_t>(
       std::lower_bound(stamps_ns_.begin(), stamps_ns_.end(), stamp_ns) - stamps_ns_.begin());
+  if (after < stamps_ns_.size() && stamps_ns_[after] == stamp_ns) {
+    return poses_[after];
+  }
   if (after > 0 && after < stamps_ns_.size()) {
     std::int64_t const since = stamp_ns - stamps_ns_[after - 1];
     std::int64_t const until = stamps_ns_[after] - stamp_ns;

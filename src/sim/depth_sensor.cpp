@@ -90,7 +90,7 @@ private:
                        static_cast<std::uint32_t>(frame >> 32U), static_cast<std::uint32_t>(v)};
     std::mt19937_64 random(seed);
     for (int u = 0; u < depth_m_.width(); ++u) {
-      depth_m_[{u, v}] = static_cast<float>(measured({u, v}, random));
+      depth_m_[{u, v}] = measured({u, v}, random);
     }
   }
 
@@ -98,7 +98,7 @@ private:
     return std::acos(std::clamp(static_cast<double>(view_.incidence_cosine[pixel]), 0.0, 1.0));
   }
 
-  double measured(Pixel pixel, std::mt19937_64& random) const {
+  float measured(Pixel pixel, std::mt19937_64& random) const {
     std::normal_distribution<double> normal;
     double const lateral_px = lateral_sigma_px(pixel);
     Pixel const source{shifted(pixel.u, lateral_px * normal(random), depth_m_.width()),
@@ -106,17 +106,25 @@ private:
     double const noise = normal(random);
     double const chance = std::uniform_real_distribution<double>()(random);
     if (lit_[source] == 0) {
-      return 0.0;
+      return 0.0F;
     }
     double const z = view_.depth_m[source];
     auto const thing = static_cast<std::size_t>(view_.thing[source]);
     if (chance < dropout(scene_.things[thing].surface, z, incidence_rad(source))) {
-      return 0.0;
+      return 0.0F;
     }
     double const noisy = model_ == SensorModel::kDisparity
                              ? disparity_depth(z, noise)
                              : z + axial_sigma_m(z, incidence_rad(source)) * noise;
-    return noisy >= scene_.camera.min_range_m && noisy <= scene_.camera.max_range_m ? noisy : 0.0;
+    return noisy >= scene_.camera.min_range_m && noisy <= scene_.camera.max_range_m
+               ? whole_millimetres(noisy)
+               : 0.0F;
+  }
+
+  /// As a driver tells them, and as a dataset in fifths of a millimetre gives them back.
+  static float whole_millimetres(double depth_m) {
+    constexpr auto kFifth_m = static_cast<float>(1.0 / 5000.0);
+    return static_cast<float>(5 * std::lround(depth_m * 1000.0)) * kFifth_m;
   }
 
   static int shifted(int position, double by_px, int size) {

@@ -18,8 +18,9 @@ namespace credo {
 ///    range squared and with incidence (Nguyen, Izadi, Lovell 2012). Disparity: shifted by half a
 ///    pixel, then rounded to eighths of a pixel of disparity with a noise of a sixth of one (Barron
 ///    and Malik 2013, in the unbiased form)
-/// The ideal model measures `view.depth_m`, but for glass. The same for the same seed and frame, at
-/// any number of threads. How the fading of dark, shiny and grazed surfaces looks is ours, by eye.
+/// Depth comes in whole millimetres. The ideal model measures `view.depth_m`, but for glass. The
+/// same for the same seed and frame, at any number of threads. How the fading of dark, shiny and
+/// grazed surfaces looks is ours, by eye.
 Grid<float> measured_depth(RenderedView const& view, Scene const& scene, SensorModel model,
                            int seed, FrameIndex index);
 

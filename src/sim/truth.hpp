@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/truth.hpp"
+#include "sim/ray_caster.hpp"
+#include "sim/scene.hpp"
+
+namespace credo {
+
+/// What is truly there in a frame of a scene that has passed check_scene. Walls are boxes; other
+/// things of kind wall stand as segments along the longer side of what bounds them.
+FrameTruth truth_of(Scene const& scene, FrameIndex index);
+
+/// The label of each of Scene::things: floor 1000, walls from 2000, objects from 3000, stuff from
+/// 4000, each kind counted in the scene's order.
+std::vector<LabelCode> labels_of_things(Scene const& scene);
+
+/// The true label image of a view: of the thing in each pixel, 0 where `measured_m`, of the same
+/// size, has no depth.
+LabelMap true_labels(Scene const& scene, RenderedView const& view, Grid<float> const& measured_m);
+
+}  // namespace credo

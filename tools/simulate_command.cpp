@@ -1,0 +1,109 @@
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "commands.hpp"
+#include "config_arguments.hpp"
+#include "io/dataset_writer.hpp"
+#include "io/truth_json.hpp"
+#include "sim/ray_caster.hpp"
+#include "sim/scene_time.hpp"
+#include "sim/sim_source.hpp"
+#include "sim/truth.hpp"
+#include "source_uri.hpp"
+#include "stop_on_signal.hpp"
+
+namespace credo {
+namespace {
+
+constexpr char const* kExamples = R"(Examples:
+  credo simulate thesis-4.4.2 --out data/glass-wall
+  credo simulate my-room.yaml --out data/room --set sim.sensor=disparity --set sim.seed=7
+  credo run --source dataset:data/room --out out/room
+
+DIR receives a TUM RGB-D dataset (depth/, rgb/, depth.txt, rgb.txt, groundtruth.txt,
+camera-intrinsics.txt; depth to 0.2 mm), and what is true: truth.jsonl, a line a frame, and
+truth/NNNNNN.png, the labels of its pixels. A scene is a name from scenes/ or a file like those.)";
+
+struct SimulateCommand {
+  std::string scene;
+  std::filesystem::path out;
+  ConfigArguments config;
+  std::optional<std::int64_t> frames;
+};
+
+/// The label images of a scene, rendered anew: a frame does not tell what it shows.
+class LabelRenderer {
+public:
+  explicit LabelRenderer(Scene const& scene) : scene_(scene) {}
+
+  LabelMap labels(FrameTruth const& truth, Frame const& frame) {
+    double const time_s = scene_time_s(scene_, frame.index);
+    std::size_t const event_count = event_count_at(scene_, time_s);
+    if (caster_ == nullptr || event_count != event_count_) {
+      caster_ = std::make_unique<RayCaster const>(scene_, time_s);
+      event_count_ = event_count;
+    }
+    return true_labels(scene_, caster_->render(truth.T_world_camera), frame.cloud_camera.z);
+  }
+
+private:
+  Scene const& scene_;
+  std::unique_ptr<RayCaster const> caster_;
+  std::size_t event_count_ = 0;
+};
+
+void show_progress(std::int64_t done, std::int64_t all) {
+  if (isatty(STDERR_FILENO) != 0) {
+    std::cerr << fmt::format("\rframe {}/{}{}", done, all, done == all ? "\n" : "") << std::flush;
+  }
+}
+
+int simulate(SimulateCommand const& command) {
+  StopOnSignal const signals;
+  PipelineConfig const config = resolved_config(command.config);
+  Scene const scene = load_scene(command.scene);
+  SimSource source(scene, config.pose, config.sim);
+  auto const all = static_cast<std::int64_t>(source.frame_count());
+  std::int64_t const frames = std::min(all, command.frames.value_or(all));
+  DatasetWriter writer(command.out);
+  LabelRenderer renderer(scene);
+  std::int64_t done = 0;
+  while (done < frames && !signals.token().stop_requested()) {
+    auto const frame = std::get<FramePtr>(source.next());
+    FrameTruth const truth = truth_of(scene, frame->index);
+    writer.write(*frame);
+    writer.write_truth(frame->index, truth_json(truth), renderer.labels(truth, *frame));
+    show_progress(++done, frames);
+  }
+  std::cout << fmt::format("{} frames of {} in {}\n", done, scene.name, command.out.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, Command& chosen) {
+  auto command = std::make_shared<SimulateCommand>();
+  CLI::App* sub = app.add_subcommand("simulate", "Write a simulated scene as a dataset with truth");
+  sub->footer(kExamples);
+  sub->add_option("scene", command->scene, "name or file")->required()->type_name("SCENE");
+  sub->add_option("--out", command->out, "folder for the dataset; made if need be")
+      ->required()
+      ->type_name("DIR");
+  add_config_arguments(*sub, command->config);
+  sub->add_option("--frames", command->frames, "stop after so many frames, 1 or more")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  sub->callback([command, &chosen] { chosen = [command] { return simulate(*command); }; });
+}
+
+}  // namespace credo
