@@ -12,8 +12,8 @@
 
 namespace credo {
 
-// What is truly there in a frame. World frame. An instance keeps its label for the whole scene, also
-// while it is out of view or absent.
+// What is truly there in a frame. World frame. An instance keeps its label for the whole scene,
+// also while it is out of view or absent.
 
 struct TrueFloor {
   /// Unit, up.

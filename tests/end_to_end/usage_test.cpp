@@ -68,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadUsage{"NoScene",
                  {"run", "--source", "sim:nowhere"},
                  "sim:nowhere: no such scene or file; scenes are bottle-moves, box-on-table, "
-                 "first-light, table-before-wall, wall-and-floor"},
+                 "first-light, table-before-wall, thesis-3.4.1, thesis-3.4.2, thesis-3.4.3, "
+                 "thesis-3.4.4, wall-and-floor"},
         BadUsage{"PosesOfASimulation", sim_with({"--set", "pose.source=file"}),
                  "scene first-light: a simulated camera has its own poses; pose.source must not be "
                  "file"},

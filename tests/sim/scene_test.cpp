@@ -201,7 +201,8 @@ TEST(Scene, IsFoundByNameOrFile) {
   EXPECT_EQ(
       error_of([&] { find_scene("nowhere"); }),
       "sim:nowhere: no such scene or file; scenes are bottle-moves, box-on-table, first-light, "
-      "table-before-wall, wall-and-floor");
+      "table-before-wall, thesis-3.4.1, thesis-3.4.2, thesis-3.4.3, "
+      "thesis-3.4.4, wall-and-floor");
   EXPECT_NE(error_of([&] { find_scene("../scenes/first-light"); }), "no error")
       << "a name is no way into other folders";
   EXPECT_NE(error_of([&] { find_scene(folder.path().string()); }), "no error");
