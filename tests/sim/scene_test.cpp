@@ -202,7 +202,7 @@ TEST(Scene, IsFoundByNameOrFile) {
       error_of([&] { find_scene("nowhere"); }),
       "sim:nowhere: no such scene or file; scenes are bottle-moves, box-on-table, first-light, "
       "table-before-wall, thesis-3.4.1, thesis-3.4.2, thesis-3.4.3, "
-      "thesis-3.4.4, wall-and-floor");
+      "thesis-3.4.4, thesis-4.4.1, thesis-4.4.2, thesis-4.4.3, thesis-4.4.4, wall-and-floor");
   EXPECT_NE(error_of([&] { find_scene("../scenes/first-light"); }), "no error")
       << "a name is no way into other folders";
   EXPECT_NE(error_of([&] { find_scene(folder.path().string()); }), "no error");
