@@ -159,6 +159,18 @@ FieldList fields(SceneCamera& camera) {
       {"max_range_m", &camera.max_range_m, {0.1, 1000}, "m", "farther depth is not measured"},
       choice("sensor", camera.sensor, {"ideal", "gaussian", "disparity"},
              "how it measures depth; sim.sensor may choose another"),
+      {"pose_jitter_m", &camera.pose_jitter_m, {0, 1}, "m", "error of each told position, sigma"},
+      {"pose_jitter_rad", &camera.pose_jitter_rad, {0, 1}, "rad", "the same of each told turn"},
+      {"pose_drift_m_per_s",
+       &camera.pose_drift_m_per_s,
+       {0, 1},
+       "m/s",
+       "how fast told positions stray along x and y"},
+      {"pose_drift_rad_per_s",
+       &camera.pose_drift_rad_per_s,
+       {0, 1},
+       "rad/s",
+       "how fast told headings stray"},
       list_of("path", camera.path, "waypoints in order of time"),
   };
 }

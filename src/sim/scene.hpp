@@ -66,6 +66,13 @@ struct SceneCamera {
   double min_range_m = 0.4;
   double max_range_m = 8.0;
   SensorModel sensor = SensorModel::kIdeal;
+  // How far the pose that it tells strays from the true one: jitter anew in each frame, standard
+  // deviations along and about each axis, and drift growing with time, along the world's x and y
+  // and about its z.
+  double pose_jitter_m = 0.0;
+  double pose_jitter_rad = 0.0;
+  double pose_drift_m_per_s = 0.0;
+  double pose_drift_rad_per_s = 0.0;
   std::vector<SceneWaypoint> path;
 };
 FieldList fields(SceneCamera& camera);

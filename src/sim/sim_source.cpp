@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "sim/camera_path.hpp"
 #include "sim/depth_sensor.hpp"
+#include "sim/pose_error.hpp"
 #include "sim/scene_time.hpp"
 
 namespace credo {
@@ -50,7 +51,8 @@ SourceResult SimSource::next() {
   frame->cloud_camera = cloud_from_depth(measured_depth(view, scene_, camera.sensor, seed_, index),
                                          frame->intrinsics);
   frame->color = std::move(view.color);
-  frame->T_source_camera = has_poses_ ? T_world_camera : Se3{};
+  frame->T_source_camera =
+      has_poses_ ? told_pose(camera, T_world_camera, since_s, seed_, index) : Se3{};
   return FramePtr(std::move(frame));
 }
 

@@ -12,7 +12,8 @@ namespace credo {
 
 /// Plays a scene as an RGB-D camera with the sensor that the scene or the config names: a frame
 /// every 1 / frames_per_s from the first waypoint to the last, of the things as they stand then,
-/// with its true pose (source frame = the scene's world), or without where poses are `fixed`.
+/// with the pose that it tells (source frame = the scene's world; true but for the scene's drift
+/// and jitter), or none where poses are `fixed`.
 class SimSource : public FrameSource {
 public:
   /// Throws InputError for a scene that check_scene refuses, or pose.source: file.
