@@ -1,7 +1,6 @@
 #include "dds/thing_writers.hpp"
 
 #include <utility>
-#include <vector>
 
 #include "dds/entities.hpp"
 #include "dds/thing_messages.hpp"
@@ -10,13 +9,17 @@
 namespace credo {
 namespace {
 
-std::vector<float> coordinates(PointList const& points) {
-  std::vector<float> flat;
-  flat.reserve(3 * points.size());
-  for (Eigen::Vector3f const& p : points) {
-    flat.insert(flat.end(), {p.x(), p.y(), p.z()});
+/// Lends the points as they lie in memory: DDS takes them by a pointer to float, though it does not
+/// write to them.
+dds_sequence_float lent_points(PointList const& points) {
+  static_assert(sizeof(PointList::value_type) == 3 * sizeof(float));
+  dds_sequence_float sequence{};
+  if (!points.empty()) {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
+    sequence._buffer = const_cast<float*>(points.front().data());
+    sequence._length = sequence._maximum = static_cast<std::uint32_t>(3 * points.size());
   }
-  return flat;
+  return sequence;
 }
 
 /// Counts the writes that fail.
@@ -61,9 +64,8 @@ std::uint64_t ThingWriters::write(BeliefState const& belief, BeliefSummary summa
                                   std::uint64_t revision) {
   Writes writes;
   if (summary.floor) {
-    std::vector<float> points = coordinates(*belief.floor->points);
     credo_msg_FloorState state{source_.data(), revision, message_of(*summary.floor), {}};
-    state.points_world_m = lent<dds_sequence_float>(points);
+    state.points_world_m = lent_points(*belief.floor->points);
     writes.write(floor_, state);
   } else if (has_floor_) {
     writes.dispose(floor_, credo_msg_FloorState{source_.data(), revision, {}, {}});
@@ -71,10 +73,9 @@ std::uint64_t ThingWriters::write(BeliefState const& belief, BeliefSummary summa
   has_floor_ = summary.floor.has_value();
   std::set<std::uint32_t> walls;
   for (std::size_t i = 0; i < summary.walls.size(); ++i) {
-    std::vector<float> points = coordinates(*belief.walls[i].points);
     WallSummary const& wall = summary.walls[i];
     credo_msg_WallState state{source_.data(), wall.id, revision, message_of(wall), {}};
-    state.points_world_m = lent<dds_sequence_float>(points);
+    state.points_world_m = lent_points(*belief.walls[i].points);
     writes.write(walls_, state);
     walls.insert(wall.id);
   }
@@ -87,10 +88,9 @@ std::uint64_t ThingWriters::write(BeliefState const& belief, BeliefSummary summa
   }
   std::set<std::uint32_t> stuff;
   for (std::size_t i = 0; i < summary.stuff.size(); ++i) {
-    std::vector<float> points = coordinates(belief.stuff[i].latest().points_world);
     StuffSummary const& thing = summary.stuff[i];
     credo_msg_StuffState state{source_.data(), thing.id, revision, message_of(thing), {}};
-    state.points_world_m = lent<dds_sequence_float>(points);
+    state.points_world_m = lent_points(belief.stuff[i].latest().points_world);
     writes.write(stuff_, state);
     stuff.insert(thing.id);
   }

@@ -46,12 +46,8 @@ CameraIntrinsics read_intrinsics(std::filesystem::path const& path) {
   return {k[0], k[4], k[2], k[5]};
 }
 
-CameraIntrinsics find_intrinsics(std::filesystem::path const& folder, CaptureConfig const& config,
-                                 int width, int height, std::vector<std::string>& warnings) {
-  auto const file = folder / "camera-intrinsics.txt";
-  if (std::filesystem::exists(file)) {
-    return checked(read_intrinsics(file), width, height, file.string());
-  }
+std::optional<CameraIntrinsics> given_intrinsics(CaptureConfig const& config, int width,
+                                                 int height) {
   std::array const given = {config.camera_fx_px, config.camera_fy_px, config.camera_cx_px,
                             config.camera_cy_px};
   auto const count = std::count_if(given.begin(), given.end(), [](double v) { return v > 0; });
@@ -60,6 +56,18 @@ CameraIntrinsics find_intrinsics(std::filesystem::path const& folder, CaptureCon
   }
   if (count > 0) {
     throw InputError("capture.camera: give all four of fx_px, fy_px, cx_px, cy_px, or none");
+  }
+  return std::nullopt;
+}
+
+CameraIntrinsics find_intrinsics(std::filesystem::path const& folder, CaptureConfig const& config,
+                                 int width, int height, std::vector<std::string>& warnings) {
+  auto const file = folder / "camera-intrinsics.txt";
+  if (std::filesystem::exists(file)) {
+    return checked(read_intrinsics(file), width, height, file.string());
+  }
+  if (auto const given = given_intrinsics(config, width, height)) {
+    return *given;
   }
   warnings.push_back(folder.string() +
                      ": no camera-intrinsics.txt and no capture.camera: taking a focal length of "

@@ -1,10 +1,9 @@
 #include "openni/sensor_image.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "core/error.hpp"
+#include "io/intrinsics.hpp"
 
 namespace credo {
 namespace {
@@ -20,14 +19,8 @@ double focal_length_px(int size_px, double fov_rad) {
 }  // namespace
 
 CameraIntrinsics intrinsics_of(DepthOptics const& optics, CaptureConfig const& config) {
-  std::array const given = {config.camera_fx_px, config.camera_fy_px, config.camera_cx_px,
-                            config.camera_cy_px};
-  auto const count = std::ranges::count_if(given, [](double v) { return v > 0; });
-  if (count == 4) {
-    return {given[0], given[1], given[2], given[3]};
-  }
-  if (count > 0) {
-    throw InputError("capture.camera: give all four of fx_px, fy_px, cx_px, cy_px, or none");
+  if (auto const given = given_intrinsics(config, optics.width_px, optics.height_px)) {
+    return *given;
   }
   auto const is_angle = [](std::optional<double> fov_rad) {
     return fov_rad && *fov_rad > 0.1 && *fov_rad < 3.0;
@@ -47,7 +40,7 @@ Grid<float> depth_image(std::span<std::uint16_t const> counts, int width, int he
   Grid<float> depth_m(width, height);
   for (std::size_t i = 0; i < depth_m.size(); ++i) {
     float const z = static_cast<float>(counts[i]) * unit_m;
-    depth_m[i] = z <= farthest_m ? z : 0.0F;
+    depth_m[i] = counts[i] != 65535 && z <= farthest_m ? z : 0.0F;
   }
   return depth_m;
 }

@@ -21,11 +21,10 @@ struct DepthOptics {
 };
 
 /// Those of the config where it gives them; else of the field of view, around the middle of the
-/// image; else 525 px at a width of 640. Throws InputError where the config gives some of the four
-/// only.
+/// image; else 525 px at a width of 640. Throws InputError as given_intrinsics does.
 CameraIntrinsics intrinsics_of(DepthOptics const& optics, CaptureConfig const& config);
 
-/// Metres of depth counts (mm, or capture.depth_unit_m); 0 and what lies beyond
+/// Metres of depth counts (mm, or capture.depth_unit_m); 0, 65535 and what lies beyond
 /// capture.max_depth_m become 0. `counts` are width x height, row by row.
 Grid<float> depth_image(std::span<std::uint16_t const> counts, int width, int height,
                         CaptureConfig const& config);
