@@ -120,7 +120,7 @@ TEST_F(Subscribers, AHundredThatComeAndAreKilledHarmNobody) {
   EXPECT_EQ(lines.back(), last);
   // All come, but for those written before it had joined; on an overloaded machine some are passed
   // over by newer ones.
-  EXPECT_GT(lines.size(), static_cast<std::size_t>(publisher.frames()) / 5);
+  EXPECT_GT(lines.size(), static_cast<std::size_t>(publisher.frames()) / 2);
   Ended const late = credo(with_topics({"watch", "--json", "--once", "--timeout", "20"}));
   EXPECT_EQ(late.out, last + "\n");
 }
@@ -159,7 +159,7 @@ TEST_F(Subscribers, OnesThatAreStoppedForAWhileHarmNobodyAndCatchUp) {
   ASSERT_FALSE(stopped_lines.empty());
   EXPECT_EQ(steady_lines.back(), last);
   EXPECT_EQ(stopped_lines.back(), last);
-  EXPECT_GT(steady_lines.size(), static_cast<std::size_t>(during) / 5) << "of " << during;
+  EXPECT_GT(steady_lines.size(), static_cast<std::size_t>(during) / 2) << "of " << during;
   EXPECT_LT(stopped_lines.size(), steady_lines.size());
   with_points.send(SIGKILL);
   with_points.wait();
