@@ -19,8 +19,19 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Where models of that name are looked for.
-std::vector<fs::path> model_folders(fs::path const& prior) {
-  return {prior.parent_path(), prior.parent_path() / "models", CREDO_MODELS_DIR};
+std::vector<fs::path> model_folders(fs::path const& folder) {
+  return {folder, folder / "models", CREDO_MODELS_DIR};
+}
+
+/// Empty where there is none.
+fs::path model_called(std::string const& name, fs::path const& folder) {
+  for (fs::path const& place : model_folders(folder)) {
+    fs::path path = place / (name + ".yaml");
+    if (fs::is_regular_file(path)) {
+      return path;
+    }
+  }
+  return {};
 }
 
 std::string known_models(std::vector<fs::path> const& folders) {
@@ -46,14 +57,11 @@ fs::path find_model(std::string const& model, fs::path const& prior, std::string
     }
     return path;
   }
-  std::vector<fs::path> const folders = model_folders(prior);
-  for (fs::path const& folder : folders) {
-    fs::path path = folder / (model + ".yaml");
-    if (fs::is_regular_file(path)) {
-      return path;
-    }
+  if (fs::path path = model_called(model, prior.parent_path()); !path.empty()) {
+    return path;
   }
-  throw InputError(who + ": no model is called " + model + "; models are " + known_models(folders) +
+  throw InputError(who + ": no model is called " + model + "; models are " +
+                   known_models(model_folders(prior.parent_path())) +
                    ", others are told by their file");
 }
 
@@ -102,6 +110,12 @@ LoadedPrior load_prior(fs::path const& path, double probability) {
     object.type = known->second;
   }
   return loaded;
+}
+
+std::optional<ObjectModel> find_known_model(std::string const& name, fs::path const& folder) {
+  fs::path const path = model_called(name, folder);
+  std::vector<std::string> ignored;  // were told to whoever ran
+  return path.empty() ? std::nullopt : std::optional(load_model(path, ignored));
 }
 
 std::unique_ptr<Detector> open_detector(DetectorConfig const& config,

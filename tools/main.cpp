@@ -19,6 +19,7 @@ constexpr char const* kExamples = R"(Examples:
   credo run --source dataset:recordings/kitchen --frames 40 --set graph.threads=1
   credo watch --json --once --timeout 5
   credo simulate first-light --out data/room --set sim.sensor=disparity
+  credo eval out/room --truth data/room
   credo config --set fusion.prior_probability=0.9 > my.yaml
   credo run --source sim:first-light --config my.yaml --out out/room
 
@@ -43,6 +44,7 @@ int run_command_line(int argc, char** argv) {
   credo::add_run_command(app, chosen);
   credo::add_watch_command(app, chosen);
   credo::add_simulate_command(app, chosen);
+  credo::add_eval_command(app, chosen);
   credo::add_config_command(app, chosen);
   try {
     app.parse(argc, argv);

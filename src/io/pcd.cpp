@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-pcl::PCLPointCloud2 read_by_pcl(fs::path const& path) {
+pcl::PCLPointCloud2 read_by_pcl(fs::path const& path, PcdHeader const& header) {
   // PCL writes its complaints to the terminal; ours are thrown.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   pcl::PCLPointCloud2 cloud;
@@ -25,7 +26,9 @@ pcl::PCLPointCloud2 read_by_pcl(fs::path const& path) {
   Eigen::Quaternionf orientation;
   int version = 0;
   try {
-    if (pcl::PCDReader().read(path.string(), cloud, origin, orientation, version) >= 0) {
+    if (pcl::PCDReader().read(path.string(), cloud, origin, orientation, version) >= 0 &&
+        cloud.width == header.width && cloud.height == header.height &&
+        cloud.data.size() == header.points * cloud.point_step) {
       return cloud;
     }
   } catch (std::exception const&) {
@@ -36,11 +39,11 @@ pcl::PCLPointCloud2 read_by_pcl(fs::path const& path) {
 
 /// Where a field of four bytes lies in a point. Colours come packed in a float or an integer.
 std::optional<std::size_t> offset_of(pcl::PCLPointCloud2 const& cloud, std::string const& name,
-                                     bool is_color) {
+                                     bool may_be_integer) {
   for (auto const& field : cloud.fields) {
     if (field.name == name && (field.datatype == pcl::PCLPointField::FLOAT32 ||
-                               (is_color && (field.datatype == pcl::PCLPointField::UINT32 ||
-                                             field.datatype == pcl::PCLPointField::INT32)))) {
+                               (may_be_integer && (field.datatype == pcl::PCLPointField::UINT32 ||
+                                                   field.datatype == pcl::PCLPointField::INT32)))) {
       return field.offset;
     }
   }
@@ -83,11 +86,7 @@ void clean(OrganizedCloud& cloud, CloudAxes axes, double max_depth_m) {
 
 ColoredCloud read_pcd(fs::path const& path, CloudAxes axes, double max_depth_m) {
   PcdHeader const header = read_pcd_header(path);
-  pcl::PCLPointCloud2 const data = read_by_pcl(path);
-  if (data.width != header.width || data.height != header.height ||
-      data.data.size() != header.points * data.point_step) {
-    throw InputError(path.string() + ": damaged PCD data");
-  }
+  pcl::PCLPointCloud2 const data = read_by_pcl(path, header);
   auto const x = offset_of(data, "x", false);
   auto const y = offset_of(data, "y", false);
   auto const z = offset_of(data, "z", false);
@@ -115,6 +114,24 @@ ColoredCloud read_pcd(fs::path const& path, CloudAxes axes, double max_depth_m) 
   }
   clean(result.cloud_camera, axes, max_depth_m);
   return result;
+}
+
+std::optional<LabelMap> read_pcd_labels(fs::path const& path) {
+  PcdHeader const header = read_pcd_header(path);
+  pcl::PCLPointCloud2 const data = read_by_pcl(path, header);
+  auto const offset = offset_of(data, "label", true);
+  if (!offset) {
+    return std::nullopt;
+  }
+  LabelMap labels(static_cast<int>(header.width), static_cast<int>(header.height));
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    auto const label = value_at<std::uint32_t>(data, i, *offset);
+    if (label > std::numeric_limits<LabelCode>::max()) {
+      throw InputError(path.string() + ": label " + std::to_string(label) + " is beyond 65535");
+    }
+    labels[i] = static_cast<LabelCode>(label);
+  }
+  return labels;
 }
 
 }  // namespace credo

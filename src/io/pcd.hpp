@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/capture_config.hpp"
 #include "core/cloud.hpp"
 #include "core/error.hpp"
 #include "core/frame.hpp"
+#include "core/label.hpp"
 
 namespace credo {
 
@@ -22,5 +24,9 @@ struct ColoredCloud {
 /// beyond `max_depth_m` become invalid. Throws InputError: unreadable, cut short, unorganised,
 /// without x y z.
 ColoredCloud read_pcd(std::filesystem::path const& path, CloudAxes axes, double max_depth_m);
+
+/// The whole numbers of a PCD file's field `label`, by pixel; none where it has no such field. Throws
+/// InputError for what read_pcd refuses, and for labels beyond 65535.
+std::optional<LabelMap> read_pcd_labels(std::filesystem::path const& path);
 
 }  // namespace credo

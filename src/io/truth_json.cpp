@@ -1,7 +1,10 @@
 #include "io/truth_json.hpp"
 
+#include <limits>
 #include <nlohmann/json.hpp>
-#include <vector>
+#include <utility>
+
+#include "io/json_value.hpp"
 
 namespace credo {
 namespace {
@@ -29,6 +32,81 @@ Json things_json(std::vector<TrueThing> const& things) {
     array.push_back(thing_json(thing));
   }
   return array;
+}
+
+template <typename Each>
+void for_each_in(JsonValue const& line, std::string const& key, Each const& each) {
+  if (line.has(key)) {
+    line.at(key).for_each(each);
+  }
+}
+
+LabelCode label_of(JsonValue const& value) {
+  return static_cast<LabelCode>(value.count(std::numeric_limits<LabelCode>::max()));
+}
+
+TrueFloor floor_of(JsonValue const& value) {
+  TrueFloor floor;
+  floor.normal = Eigen::Vector3d(value.at("normal").numbers<3>().data());
+  floor.height_m = value.at("height_m").number();
+  return floor;
+}
+
+TrueWall wall_of(JsonValue const& value) {
+  TrueWall wall;
+  wall.id = value.at("id").text();
+  std::vector<Eigen::Vector2d> ends;
+  value.at("segment").for_each(
+      [&](JsonValue const& end) { ends.emplace_back(end.numbers<2>().data()); });
+  if (ends.size() != 2) {
+    value.at("segment").refuse("must be two points");
+  }
+  wall.segment_start_m = ends[0];
+  wall.segment_end_m = ends[1];
+  wall.normal = Eigen::Vector3d(value.at("normal").numbers<3>().data());
+  wall.visible_fraction = value.at("visible_fraction").fraction();
+  wall.label = label_of(value.at("label"));
+  return wall;
+}
+
+TrueThing thing_of(JsonValue const& value) {
+  TrueThing thing;
+  thing.id = value.at("id").text();
+  // Stuff has none.
+  if (JsonValue const type = value.at("type"); type.json != "") {
+    thing.type = type.text();
+  }
+  thing.pose = Se3(value.at("orientation_xyzw").orientation(), value.at("position").position());
+  thing.present = value.at("present").flag();
+  thing.visible_fraction = value.at("visible_fraction").fraction();
+  thing.label = label_of(value.at("label"));
+  return thing;
+}
+
+TrueEvent event_of(JsonValue const& value) {
+  TrueEvent event{value.at("what").text(), value.at("id").text()};
+  if (event.what != "appeared" && event.what != "moved" && event.what != "removed") {
+    value.at("what").refuse("must be appeared, moved or removed");
+  }
+  return event;
+}
+
+FrameTruth truth_in(JsonValue const& line) {
+  FrameTruth truth;
+  truth.frame = FrameIndex{
+      static_cast<std::int64_t>(line.at("frame").count(std::numeric_limits<std::int64_t>::max()))};
+  truth.stamp_ns = line.at("stamp_ns").integer();
+  auto const pose = line.at("T_world_camera").numbers<16>();
+  truth.T_world_camera =
+      Se3::from_matrix(Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor> const>(pose.data()));
+  if (line.has("floor") && !line.at("floor").json.is_null()) {
+    truth.floor = floor_of(line.at("floor"));
+  }
+  for_each_in(line, "walls", [&](JsonValue const& v) { truth.walls.push_back(wall_of(v)); });
+  for_each_in(line, "objects", [&](JsonValue const& v) { truth.objects.push_back(thing_of(v)); });
+  for_each_in(line, "stuff", [&](JsonValue const& v) { truth.stuff.push_back(thing_of(v)); });
+  for_each_in(line, "events", [&](JsonValue const& v) { truth.events.push_back(event_of(v)); });
+  return truth;
 }
 
 }  // namespace
@@ -61,6 +139,18 @@ std::string truth_json(FrameTruth const& truth) {
     json["events"].push_back({{"what", event.what}, {"id", event.id}});
   }
   return json.dump();
+}
+
+std::vector<FrameTruth> read_truth(std::filesystem::path const& path) {
+  std::vector<FrameTruth> frames;
+  for_each_json_line(path, "true beliefs", [&](JsonValue const& line) {
+    FrameTruth truth = truth_in(line);
+    if (!frames.empty() && !(number(truth.frame) > number(frames.back().frame))) {
+      line.at("frame").refuse("must come after " + std::to_string(number(frames.back().frame)));
+    }
+    frames.push_back(std::move(truth));
+  });
+  return frames;
 }
 
 }  // namespace credo

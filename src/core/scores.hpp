@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace credo {
+
+// How a run's beliefs stand to the truth. Fractions, not percent. None where the truth, or the run,
+// has nothing to say.
+
+/// Segments against true instances, means over frames (weighted overlap and over- and
+/// under-segmentation as in the OSD benchmark; docs/eval.md has the formulas).
+struct OverlapScores {
+  double weighted_overlap = 0.0;
+  double over_segmentation = 0.0;
+  /// Foreign pixels of each instance's segment, per pixel of instances: may be above 1.
+  double under_segmentation = 0.0;
+  /// Of the instances, how many have a segment with an IoU above a half.
+  double recall_50 = 0.0;
+};
+
+struct SegmentationScores {
+  std::optional<OverlapScores> instances;
+  /// Where the truth labels parts of things: the same with the parts of each thing as one.
+  std::optional<OverlapScores> merged;
+  /// Of the pixels of each class over all frames: "floor", "wall", "object", "stuff".
+  std::map<std::string, double> iou;
+};
+
+/// Means over the frames that have a floor.
+struct FloorScores {
+  double tilt_deg = 0.0;
+  double height_m = 0.0;
+};
+
+struct WallScores {
+  std::optional<double> precision;
+  std::optional<double> recall;
+  /// Mean distance of a believed wall's ends from those of what was seen of the true one.
+  std::optional<double> endpoint_m;
+};
+
+/// Of the known objects. Errors are means over believed objects at their places, least over the
+/// model's symmetry.
+struct ObjectScores {
+  std::optional<double> translation_m;
+  std::optional<double> rotation_deg;
+  /// Of those that were to be believed, how many are within a tenth of their diameter (ADD-S).
+  std::optional<double> adds_recall;
+  /// Squared Mahalanobis distance of the true pose under the claimed distribution, mean.
+  std::optional<double> nees;
+  /// What `nees` is if the claims are right: the mean of the degrees of freedom.
+  std::optional<double> nees_expected;
+  std::optional<double> precision;
+  std::optional<double> recall;
+};
+
+/// Of the claims that fall into a tenth of [0, 1].
+struct ReliabilityBin {
+  std::uint64_t count = 0;
+  double mean_probability = 0.0;
+  double observed = 0.0;
+};
+
+struct ExistenceScores {
+  /// Expected calibration error over ten bins of equal width (Naeini et al. 2015).
+  double ece = 0.0;
+  double brier = 0.0;
+  std::array<ReliabilityBin, 10> reliability;
+};
+
+struct ChangeScores {
+  std::optional<double> precision;
+  std::optional<double> recall;
+  /// Median over the changes that were noticed.
+  std::optional<double> delay_frames;
+  /// How many changes could be noticed.
+  std::uint64_t events = 0;
+};
+
+struct StuffScores {
+  std::uint64_t id_switches = 0;
+  std::uint64_t fragmentations = 0;
+  /// Things times frames in which they were followed: what the counts are of.
+  std::uint64_t item_frames = 0;
+};
+
+struct Scores {
+  std::uint64_t frames = 0;
+  SegmentationScores segmentation;
+  std::optional<FloorScores> floor;
+  WallScores walls;
+  ObjectScores objects;
+  std::optional<ExistenceScores> existence;
+  ChangeScores change;
+  std::optional<StuffScores> stuff;
+};
+
+}  // namespace credo

@@ -1,0 +1,126 @@
+#include <limits>
+#include <utility>
+
+#include "io/belief_json.hpp"
+#include "io/json_value.hpp"
+
+namespace credo {
+namespace {
+
+constexpr std::uint64_t kMaxId = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint64_t kMaxCount = std::numeric_limits<std::int64_t>::max();
+
+std::optional<LabelCode> label_of(JsonValue const& value) {
+  if (value.json.is_null()) {
+    return std::nullopt;
+  }
+  return static_cast<LabelCode>(value.count(std::numeric_limits<LabelCode>::max()));
+}
+
+Evidence evidence_of(JsonValue const& value) {
+  std::string const word = value.text();
+  for (Evidence const evidence : {Evidence::kSeen, Evidence::kSeenThrough, Evidence::kOccluded,
+                                  Evidence::kOutOfView, Evidence::kNotSeen}) {
+    if (word == to_string(evidence)) {
+      return evidence;
+    }
+  }
+  value.refuse("'" + word + "' is no evidence");
+}
+
+Eigen::Vector3d vector_of(JsonValue const& value) {
+  return Eigen::Vector3d(value.numbers<3>().data());
+}
+
+/// May be -1, the prior.
+FrameIndex belief_of(JsonValue const& value) {
+  return value.json == -1 ? kPriorFrame
+                          : FrameIndex{static_cast<std::int64_t>(value.count(kMaxCount))};
+}
+
+FloorSummary floor_of(JsonValue const& value) {
+  return {vector_of(value.at("normal")), value.at("height_m").number(),
+          value.at("points").count(kMaxCount)};
+}
+
+WallSummary wall_of(JsonValue const& value) {
+  WallSummary wall;
+  wall.id = static_cast<std::uint32_t>(value.at("id").count(kMaxId));
+  std::vector<Eigen::Vector2d> ends;
+  value.at("segment").for_each(
+      [&](JsonValue const& end) { ends.emplace_back(end.numbers<2>().data()); });
+  if (ends.size() != 2) {
+    value.at("segment").refuse("must be two points");
+  }
+  wall.segment_start_m = ends[0];
+  wall.segment_end_m = ends[1];
+  wall.normal = vector_of(value.at("normal"));
+  wall.point_count = value.at("points").count(kMaxCount);
+  wall.label = label_of(value.at("label"));
+  return wall;
+}
+
+ObjectSummary object_of(JsonValue const& value) {
+  ObjectSummary object;
+  object.id = value.at("id").text();
+  object.type = value.at("type").text();
+  object.probability = value.at("probability").fraction();
+  object.position_m = value.at("position").position();
+  object.orientation = value.at("orientation_xyzw").orientation();
+  auto const covariance = value.at("covariance").numbers<36>();
+  object.covariance =
+      Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor> const>(covariance.data());
+  object.evidence = evidence_of(value.at("evidence"));
+  object.label = label_of(value.at("label"));
+  return object;
+}
+
+StuffSummary stuff_of(JsonValue const& value) {
+  StuffSummary stuff;
+  stuff.id = static_cast<std::uint32_t>(value.at("id").count(kMaxId));
+  stuff.probability = value.at("probability").fraction();
+  stuff.history_count = value.at("history").count(kMaxCount);
+  stuff.pixel_count = value.at("points").count(kMaxCount);
+  stuff.centroid_m = vector_of(value.at("centroid")).cast<float>();
+  stuff.min_m = vector_of(value.at("min")).cast<float>();
+  stuff.max_m = vector_of(value.at("max")).cast<float>();
+  stuff.evidence = evidence_of(value.at("evidence"));
+  stuff.label = label_of(value.at("label"));
+  return stuff;
+}
+
+BeliefSummary summary_in(JsonValue const& line) {
+  if (line.at("schema").number() != 1) {
+    line.at("schema").refuse("only 1 is known: written by another version of credo?");
+  }
+  BeliefSummary belief;
+  belief.frame = FrameIndex{static_cast<std::int64_t>(line.at("frame").count(kMaxCount))};
+  belief.stamp_ns = line.at("stamp_ns").integer();
+  belief.segmented_with = belief_of(line.at("segmented_with"));
+  auto const pose = line.at("T_world_camera").numbers<16>();
+  belief.T_world_camera =
+      Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor> const>(pose.data());
+  if (JsonValue const floor = line.at("floor"); !floor.json.is_null()) {
+    belief.floor = floor_of(floor);
+  }
+  line.at("walls").for_each([&](JsonValue const& v) { belief.walls.push_back(wall_of(v)); });
+  line.at("objects").for_each([&](JsonValue const& v) { belief.objects.push_back(object_of(v)); });
+  line.at("stuff").for_each([&](JsonValue const& v) { belief.stuff.push_back(stuff_of(v)); });
+  return belief;
+}
+
+}  // namespace
+
+std::vector<BeliefSummary> read_beliefs(std::filesystem::path const& path) {
+  std::vector<BeliefSummary> beliefs;
+  for_each_json_line(path, "beliefs", [&](JsonValue const& line) {
+    BeliefSummary belief = summary_in(line);
+    if (!beliefs.empty() && !(number(belief.frame) > number(beliefs.back().frame))) {
+      line.at("frame").refuse("must come after " + std::to_string(number(beliefs.back().frame)));
+    }
+    beliefs.push_back(std::move(belief));
+  });
+  return beliefs;
+}
+
+}  // namespace credo

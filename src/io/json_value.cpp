@@ -1,0 +1,157 @@
+#include "io/json_value.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "core/error.hpp"
+
+namespace credo {
+namespace {
+
+std::string listed(std::initializer_list<char const*> names) {
+  std::string text;
+  for (char const* name : names) {
+    text += (text.empty() ? "" : ", ") + std::string(name);
+  }
+  return text;
+}
+
+nlohmann::json parsed(std::string const& line) {
+  try {
+    return nlohmann::json::parse(line);
+  } catch (nlohmann::json::parse_error const& error) {
+    throw std::invalid_argument("is not JSON from character " + std::to_string(error.byte) + " on");
+  } catch (nlohmann::json::out_of_range const&) {
+    throw std::invalid_argument("has a number that is too large");
+  }
+}
+
+}  // namespace
+
+void JsonValue::refuse(std::string const& reason) const {
+  throw std::invalid_argument(where + (where.empty() ? "" : ": ") + reason);
+}
+
+JsonValue JsonValue::at(std::string const& key) const {
+  std::string const name = where.empty() ? key : where + "." + key;
+  auto const found = json.find(key);
+  if (found == json.end()) {
+    JsonValue{json, name}.refuse("is missing");
+  }
+  return {*found, name};
+}
+
+void JsonValue::must_be_object(std::initializer_list<char const*> known) const {
+  if (!json.is_object()) {
+    refuse("must be an object with the keys " + listed(known));
+  }
+  for (auto const& [key, unused] : json.items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      refuse("unknown key '" + key + "'; the keys are " + listed(known));
+    }
+  }
+}
+
+double JsonValue::number() const {
+  if (!json.is_number()) {
+    refuse("must be a number");
+  }
+  return json.get<double>();
+}
+
+double JsonValue::fraction() const {
+  double const value = number();
+  if (value < 0.0 || value > 1.0) {
+    refuse("must be in [0, 1]");
+  }
+  return value;
+}
+
+std::uint64_t JsonValue::count(std::uint64_t max) const {
+  // The parser takes every whole number that is not negative for an unsigned one.
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > max) {
+    refuse("must be a whole number, 0 or above");
+  }
+  return json.get<std::uint64_t>();
+}
+
+std::int64_t JsonValue::integer() const {
+  if (!json.is_number_integer()) {
+    refuse("must be a whole number");
+  }
+  return json.get<std::int64_t>();
+}
+
+bool JsonValue::flag() const {
+  if (!json.is_boolean()) {
+    refuse("must be true or false");
+  }
+  return json.get<bool>();
+}
+
+std::string JsonValue::text() const {
+  if (!json.is_string() || json.get_ref<std::string const&>().empty()) {
+    refuse("must be a text that is not empty");
+  }
+  return json.get<std::string>();
+}
+
+Eigen::Vector3d JsonValue::position() const {
+  Eigen::Vector3d const position(numbers<3>().data());
+  if (position.cwiseAbs().maxCoeff() > 1e4) {
+    refuse("must be within 10000 m");
+  }
+  return position;
+}
+
+Eigen::Quaterniond JsonValue::orientation() const {
+  auto const xyzw = numbers<4>();
+  Eigen::Quaterniond orientation(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+  double const length = orientation.norm();
+  if (!(std::abs(length - 1.0) <= 1e-2)) {
+    std::ostringstream text;
+    text << "must be of length 1, has " << length;
+    refuse(text.str());
+  }
+  return orientation;
+}
+
+void JsonValue::for_each(std::function<void(JsonValue const&)> const& each) const {
+  if (!json.is_array()) {
+    refuse("must be a list");
+  }
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    each({json[i], where + "[" + std::to_string(i) + "]"});
+  }
+}
+
+void for_each_json_line(std::filesystem::path const& path, std::string const& what,
+                        std::function<void(JsonValue const&)> const& each) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw InputError(path.string() + ": is a folder; " + what + " are a file");
+  }
+  std::ifstream file(path);
+  if (!file) {
+    throw InputError(path.string() + ": " + what + " cannot be read");
+  }
+  int line_number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++line_number;
+    if (line.find_first_not_of(" \t\r") == std::string::npos) {
+      continue;
+    }
+    try {
+      nlohmann::json const json = parsed(line);
+      each({json, ""});
+    } catch (std::exception const& error) {
+      throw InputError(path.string() + ":" + std::to_string(line_number) + ": " + error.what());
+    }
+  }
+}
+
+}  // namespace credo

@@ -1,0 +1,79 @@
+#include "io/scores_json.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace credo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(std::optional<double> const& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json json_of(OverlapScores const& scores) {
+  return {{"wov", scores.weighted_overlap},
+          {"f_os", scores.over_segmentation},
+          {"f_us", scores.under_segmentation},
+          {"recall_50", scores.recall_50}};
+}
+
+Json json_of(SegmentationScores const& scores) {
+  Json json = {{"wov", nullptr}, {"f_os", nullptr}, {"f_us", nullptr}, {"recall_50", nullptr}};
+  if (scores.instances) {
+    json = json_of(*scores.instances);
+  }
+  json["iou"] = scores.iou.empty() ? Json(nullptr) : Json(scores.iou);
+  json["merged"] = scores.merged ? json_of(*scores.merged) : Json(nullptr);
+  return json;
+}
+
+Json json_of(ExistenceScores const& scores) {
+  Json bins = Json::array();
+  for (ReliabilityBin const& bin : scores.reliability) {
+    bins.push_back({{"count", bin.count},
+                    {"mean_probability", bin.count > 0 ? Json(bin.mean_probability) : Json()},
+                    {"observed", bin.count > 0 ? Json(bin.observed) : Json()}});
+  }
+  return {{"ece", scores.ece}, {"brier", scores.brier}, {"reliability", std::move(bins)}};
+}
+
+}  // namespace
+
+std::string scores_json(Scores const& scores) {
+  Json json = {{"schema", 1}, {"frames", scores.frames}};
+  json["segmentation"] = json_of(scores.segmentation);
+  json["floor"] = {{"tilt_deg", nullptr}, {"height_m", nullptr}};
+  if (scores.floor) {
+    json["floor"] = {{"tilt_deg", scores.floor->tilt_deg}, {"height_m", scores.floor->height_m}};
+  }
+  json["walls"] = {{"precision", json_of(scores.walls.precision)},
+                   {"recall", json_of(scores.walls.recall)},
+                   {"endpoint_m", json_of(scores.walls.endpoint_m)}};
+  ObjectScores const& objects = scores.objects;
+  json["objects"] = {{"translation_m", json_of(objects.translation_m)},
+                     {"rotation_deg", json_of(objects.rotation_deg)},
+                     {"adds_recall", json_of(objects.adds_recall)},
+                     {"nees", json_of(objects.nees)},
+                     {"nees_expected", json_of(objects.nees_expected)},
+                     {"precision", json_of(objects.precision)},
+                     {"recall", json_of(objects.recall)}};
+  json["existence"] = {{"ece", nullptr}, {"brier", nullptr}, {"reliability", nullptr}};
+  if (scores.existence) {
+    json["existence"] = json_of(*scores.existence);
+  }
+  json["change"] = {{"precision", json_of(scores.change.precision)},
+                    {"recall", json_of(scores.change.recall)},
+                    {"delay_frames", json_of(scores.change.delay_frames)},
+                    {"events", scores.change.events}};
+  json["stuff"] = {{"id_switches", nullptr}, {"fragmentations", nullptr}, {"item_frames", nullptr}};
+  if (scores.stuff) {
+    json["stuff"] = {{"id_switches", scores.stuff->id_switches},
+                     {"fragmentations", scores.stuff->fragmentations},
+                     {"item_frames", scores.stuff->item_frames}};
+  }
+  return json.dump(2);
+}
+
+}  // namespace credo
