@@ -228,5 +228,22 @@ TEST_F(PcdTest, PclKeepsSilentOnDamagedFiles) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST_F(PcdTest, LabelsAreReadWhereThereAreSome) {
+  std::string const with_labels =
+      header("FIELDS label x y z\nSIZE 4 4 4 4\nTYPE U F F F\nCOUNT 1 1 1 1\n");
+  write_text(path(), with_labels + "DATA ascii\n0 1 2 3\n21 4 5 6\n1 7 8 9\n65535 nan nan nan\n");
+  auto const labels = read_pcd_labels(path());
+  ASSERT_TRUE(labels);
+  EXPECT_EQ(labels->width(), 2);
+  EXPECT_EQ((*labels)[0], 0);
+  EXPECT_EQ((*labels)[1], 21);
+  EXPECT_EQ((*labels)[2], 1);
+  EXPECT_EQ((*labels)[3], 65535);
+  write_text(path(), header() + "DATA ascii\n" + kFourPoints);
+  EXPECT_FALSE(read_pcd_labels(path()));
+  write_text(path(), with_labels + "DATA ascii\n0 1 2 3\n70000 4 5 6\n1 7 8 9\n1 1 1 1\n");
+  EXPECT_THROW(read_pcd_labels(path()), InputError);
+}
+
 }  // namespace
 }  // namespace credo
