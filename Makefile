@@ -11,7 +11,7 @@ SANITIZED ?= core config dataset intrinsics trajectory pcd image output mesh det
 TIDY_CHECKS ?=
 SOURCES = $(shell git ls-files '*.cpp' '*.hpp')
 
-.PHONY: demo test build deps bench docs lint sanitize format help
+.PHONY: demo test build deps bench scores docs lint sanitize format help
 help:            ## what there is
 	@grep -E '^[a-z]+: .*## ' Makefile | sed -E 's/:.*## /\t/'
 
@@ -39,6 +39,10 @@ bench: deps      ## ours beside PCL's, on the same frames in the same run
 	cmake --preset bench --log-level=WARNING
 	cmake --build --preset bench
 	@for b in $(BUILD)/bin/*_bench; do $$b || exit 1; done
+
+scores: build    ## every scene simulated, run with both presets and scored: docs/scores.md
+	tools/score_scenes.py $(BUILD)/bin/credo out/scores --markdown docs/scores.md \
+	  --recordings $${CREDO_DATA:-../shared/data}
 
 docs: build      ## config/default.yaml and docs/config.md, as the program prints them
 	$(BUILD)/bin/credo config > config/default.yaml
