@@ -40,6 +40,7 @@ struct Axes {
   double height = 120;
   double x_min = 0;
   double x_max = 1;
+  double x_step = 0.25;
   double y_max = 1;
 
   [[nodiscard]] double x(double value) const {
@@ -66,8 +67,7 @@ std::string drawn(Axes const& axes, std::string const& title) {
         line(axes.left, axes.y(value), axes.left + axes.width, axes.y(value), "stroke=\"#ddd\"");
     body += label(axes.left - 6, axes.y(value) + 4, "end", text_of(value));
   }
-  for (int i = 0; i <= 4; ++i) {
-    double const value = axes.x_min + (axes.x_max - axes.x_min) * i / 4;
+  for (double value = axes.x_min; value <= axes.x_max; value += axes.x_step) {
     body += label(axes.x(value), axes.top + axes.height + 16, "middle", text_of(value));
   }
   return body;
@@ -177,8 +177,9 @@ std::string reliability_plot(ExistenceScores const& scores) {
   for (ReliabilityBin const& bin : scores.reliability) {
     count += bin.count;
   }
-  std::string body = drawn(axes, "share that was there, over the believed probability: ECE " +
-                                     text_of(scores.ece) + ", Brier " + text_of(scores.brier));
+  std::string body = drawn(axes, "share that was there, over the believed probability");
+  body += label(axes.left, axes.top + axes.height + 34, "start",
+                "ECE " + text_of(scores.ece) + ", Brier " + text_of(scores.brier));
   body += line(axes.x(0), axes.y(0), axes.x(1), axes.y(1), "stroke=\"#888\"");
   for (ReliabilityBin const& bin : scores.reliability) {
     if (bin.count > 0) {
@@ -192,7 +193,7 @@ std::string reliability_plot(ExistenceScores const& scores) {
       body += label(x, y - 6, "middle", std::to_string(bin.count));
     }
   }
-  return svg(480, 430, body);
+  return svg(480, 440, body);
 }
 
 std::string frames_plot(std::vector<FrameScores> const& trace) {
@@ -212,6 +213,7 @@ std::string frames_plot(std::vector<FrameScores> const& trace) {
   if (!trace.empty()) {
     axes.x_min = static_cast<double>(number(trace.front().frame));
     axes.x_max = std::max(axes.x_min + 1.0, static_cast<double>(number(trace.back().frame)));
+    axes.x_step = std::max(1.0, rounded_up((axes.x_max - axes.x_min) / 10.0));
   }
   std::string body;
   for (Strip const& strip : strips) {
