@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/pictures.hpp"
+#include "io/palette.hpp"
 #include "io/plain_pictures.hpp"
 
 namespace credo::test {
