@@ -20,7 +20,7 @@ constexpr std::array<NamedColor, 8> kStuff = {{{"purple", {165, 80, 235}},
                                                {"orange", {250, 150, 40}},
                                                {"light blue", {90, 120, 255}},
                                                {"lime", {190, 240, 110}},
-                                               {"mauve", {200, 120, 160}},
+                                               {"brown", {165, 110, 70}},
                                                {"mint", {130, 220, 190}}}};
 
 constexpr std::array<Rgb, 6> kObjects = {{{255, 0, 255},

@@ -57,11 +57,9 @@ std::vector<std::string> arguments_in(std::string const& section, fs::path const
     }
     open.clear();
   }
-  for (std::size_t i = 1; i < arguments.size(); ++i) {
-    arguments[i] = arguments[i - 1] == "--out"    ? out.string()
-                   : arguments[i - 1] == "--dump" ? "labels"
-                                                  : arguments[i];
-  }
+  auto const dump = std::ranges::find(arguments, "--dump");
+  arguments.erase(dump, dump == arguments.end() ? dump : dump + 2);
+  *(std::ranges::find(arguments, "--out") + 1) = out.string();
   return arguments;
 }
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/pictures.hpp"
 #include "io/palette.hpp"
+#include "io/pictures.hpp"
 #include "io/plain_pictures.hpp"
 
 namespace credo::test {

@@ -40,6 +40,15 @@ void write_glyph(Glyph const& glyph, Panel const& panel, int left, Canvas& canva
   }
 }
 
+/// Behind a panel's letter.
+void darken_corner(Panel const& panel, Canvas& canvas) {
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 46; ++x) {
+      canvas.set(panel, x, y, kBackground);
+    }
+  }
+}
+
 /// The mean of so many of the image's pixels as fall on each.
 Grid<Rgb> shrunk(Grid<Rgb> const& image, int width, int height) {
   constexpr int kSamples = 4;
@@ -130,6 +139,7 @@ Grid<Rgb> mounted(std::vector<Grid<Rgb>> const& panels, int columns) {
         canvas.set(panel, x, y, image[Pixel{x, y}]);
       }
     }
+    darken_corner(panel, canvas);
     write_glyph(kOpen, panel, 8, canvas);
     write_glyph(kLetters.at(static_cast<std::size_t>(i)), panel, 18, canvas);
     write_glyph(kClose, panel, 28, canvas);

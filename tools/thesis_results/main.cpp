@@ -2,8 +2,11 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <iostream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "io/image.hpp"
@@ -38,7 +41,9 @@ detector that errs more, it says so. Each object's prior is wrong by 1 to 4 cm a
 [thesis-preset.md](thesis-preset.md) tells why they differ.
 
 **Colours.** As in the thesis: the cloud cyan, floor red, walls pink, stuff purple, yellow, green and
-others, paler as its probability falls; the box outlined magenta, the table blue.
+others, fading into the ground as its probability falls; the box outlined magenta, the table blue. A
+piece of stuff keeps its colour. `--dump pictures` draws in the same colours, four views a frame; only
+its outlines are coloured in the prior's order.
 
 **Words.** IoU: of the pixels that truly are something with those that got its label, the shared over the
 joint. Probabilities are the belief's; bold where the look showed the thing. Pixels and points are
@@ -74,7 +79,10 @@ int run(std::vector<std::string> const& arguments) {
   std::string summary;
   std::string sections;
   for (Figure const& figure : figures) {
-    FigureRuns const runs = {run_with(figure.recipe, true), run_with(figure.recipe, false)};
+    // Neither run knows of the other.
+    std::future<SceneRun> thesis = std::async(std::launch::async, run_with, figure.recipe, true);
+    SceneRun defaults = run_with(figure.recipe, false);
+    FigureRuns const runs = {thesis.get(), std::move(defaults)};
     summary += summary_row(figure, runs);
     sections += "\n" + section_of(figure, runs);
     if (arguments.size() == 2) {
