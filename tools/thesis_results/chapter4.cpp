@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <ranges>
 #include <stdexcept>
 
 #include "page.hpp"
@@ -63,11 +62,12 @@ std::string course_of(StuffTrack const& track) {
 
 /// After the last look that showed it its probability only falls, to nothing or not.
 bool sinks(StuffTrack const& track) {
-  auto const last_seen = static_cast<std::size_t>(
-      std::ranges::find(track.seen | std::views::reverse, true).base() - track.seen.begin() - 1);
+  std::size_t last_seen = track.first;
+  for (std::size_t k = track.first; k < track.seen.size(); ++k) {
+    last_seen = track.seen[k] ? k : last_seen;
+  }
   for (std::size_t k = last_seen + 1; k < track.probability.size(); ++k) {
-    if (track.probability[k].value_or(0.0) > track.probability[k - 1].value_or(0.0) ||
-        (track.probability[k] && *track.probability[k] >= *track.probability[k - 1])) {
+    if (track.probability[k] && *track.probability[k] >= *track.probability[k - 1]) {
       return false;
     }
   }
@@ -138,12 +138,12 @@ bool is_thesis_twice_unseen(std::optional<double> const& probability) {
   return probability && *probability > 0.2 && *probability < 0.25;
 }
 
-/// One such piece is not seen again and sinks: to its end, or to the thesis' value two looks later.
+/// One such piece, in one look only, sinks: to its end, or to the thesis' value two looks later.
 std::function<Finding(SceneRun const&)> left_over_sinks(std::string const& what, bool to_the_end) {
   return [=](SceneRun const& run) -> Finding {
-    Finding finding{"none is left over and sinks", false};
+    Finding finding{"none", false};
     for (StuffTrack const& track : tracks_of(run, what)) {
-      if (!finding.holds && sinks(track)) {
+      if (!finding.holds && std::ranges::count(track.seen, true) == 1 && sinks(track)) {
         bool const holds = to_the_end
                                ? !track.believed_last()
                                : track.first + 2 < track.probability.size() &&
@@ -233,8 +233,8 @@ std::function<Finding(SceneRun const&)> bottle_is_one_thing(std::size_t since) {
     std::ptrdiff_t most = 0;
     auto const looks = static_cast<std::ptrdiff_t>(run.looks.size() - since);
     for (StuffTrack const& track : tracks_of(run, "bottle")) {
-      auto const seen = std::ranges::count(
-          track.seen | std::views::drop(static_cast<std::ptrdiff_t>(since)), true);
+      auto const seen = std::count(track.seen.begin() + static_cast<std::ptrdiff_t>(since),
+                                   track.seen.end(), true);
       things += seen > 0 ? 1U : 0U;
       most = std::max(most, seen);
     }

@@ -112,6 +112,7 @@ std::vector<StuffTrack> stuff_tracks(SceneRun const& run) {
     }
   }
   std::vector<StuffTrack> result;
+  result.reserve(tracks.size());
   for (auto& [id, track] : tracks) {
     result.push_back(std::move(track));
   }
