@@ -11,9 +11,9 @@ SANITIZED ?= core config dataset intrinsics trajectory pcd image output mesh det
 TIDY_CHECKS ?=
 SOURCES = $(shell git ls-files '*.cpp' '*.hpp')
 
-.PHONY: demo test build deps bench scores docs lint sanitize format help
+.PHONY: demo test build deps bench scores docs thesis-results lint sanitize format help
 help:            ## what there is
-	@grep -E '^[a-z]+: .*## ' Makefile | sed -E 's/:.*## /\t/'
+	@grep -E '^[a-z-]+: .*## ' Makefile | sed -E 's/:.*## /\t/'
 
 demo: build      ## a simulated room in, a belief and its pictures out
 	$(BUILD)/bin/credo run --source sim:first-light --out $(OUT) --dump labels,pictures
@@ -47,6 +47,11 @@ scores: build    ## every scene simulated, run with both presets and scored: doc
 docs: build      ## config/default.yaml and docs/config.md, as the program prints them
 	$(BUILD)/bin/credo config > config/default.yaml
 	$(BUILD)/bin/credo config --markdown > docs/config.md
+
+thesis-results: deps ## docs/thesis-results.md and its figures, from runs of the thesis' scenes
+	cmake --preset $(PRESET) --log-level=WARNING
+	cmake --build --preset $(PRESET) --target credo_thesis_results
+	$(BUILD)/bin/credo_thesis_results docs/thesis-results.md docs/thesis
 
 lint: deps       ## clang-format and clang-tidy, findings are errors
 	clang-format --dry-run --Werror $(SOURCES)

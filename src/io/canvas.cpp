@@ -83,12 +83,12 @@ Splats::Splats(View const& view, Canvas& canvas)
       canvas_(canvas),
       depth_m_(view.panel.width, view.panel.height, std::numeric_limits<float>::infinity()) {}
 
-void Splats::point(Eigen::Vector3d const& p_world, Rgb color, int radius_px) {
+void Splats::point(Eigen::Vector3d const& p_world, Rgb color, int radius_px, double ahead_m) {
   auto const at = view_.project(p_world);
   if (!at) {
     return;
   }
-  auto const depth_m = static_cast<float>(at->depth_m);
+  auto const depth_m = static_cast<float>(at->depth_m - ahead_m);
   for (int y = at->y - radius_px + 1; y < at->y + radius_px; ++y) {
     for (int x = at->x - radius_px + 1; x < at->x + radius_px; ++x) {
       if (depth_m_.contains({x, y}) && depth_m < depth_m_[Pixel{x, y}]) {
@@ -100,15 +100,16 @@ void Splats::point(Eigen::Vector3d const& p_world, Rgb color, int radius_px) {
 }
 
 void Splats::line(Eigen::Vector3d const& a_world, Eigen::Vector3d const& b_world, Rgb color,
-                  double share) {
+                  LineStyle const& style) {
   // Steps of about a pixel for what is near; lines are short and few.
+  double const steps_per_m = std::max(240.0, 0.5 * view_.scale);
   double const length_m = (b_world - a_world).norm();
-  int const steps = std::clamp(static_cast<int>(length_m * 240.0), 1, 4000);
+  int const steps = std::clamp(static_cast<int>(length_m * steps_per_m), 1, 4000);
   constexpr int kDash = 10;
   for (int k = 0; k <= steps; ++k) {
-    if (k % kDash < share * kDash) {
+    if (k % kDash < style.share * kDash) {
       double const along = static_cast<double>(k) / steps;
-      point(a_world + along * (b_world - a_world), color, 1);
+      point(a_world + along * (b_world - a_world), color, style.radius_px, style.ahead_m);
     }
   }
 }

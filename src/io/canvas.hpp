@@ -67,15 +67,24 @@ View oblique_view(Se3 const& T_world_camera, Panel const& panel);
 /// From straight above, world x to the right, y up, centred a little before the camera.
 View map_view(Se3 const& T_world_camera, Panel const& panel);
 
+/// How a line is drawn.
+struct LineStyle {
+  /// Of its points, evenly: less than 1 makes dots.
+  double share = 1.0;
+  /// Squares of 2 radius_px - 1 pixels.
+  int radius_px = 1;
+  /// So much nearer it counts than it is: a solid's edge wins over the noise of its surface.
+  double ahead_m = 0.0;
+};
+
 /// Draws points and lines of one view with a depth test: the nearer wins.
 class Splats {
 public:
   Splats(View const& view, Canvas& canvas);
   /// A square of 2 radius_px - 1 pixels.
-  void point(Eigen::Vector3d const& p_world, Rgb color, int radius_px);
-  /// `share` of its points, evenly: less than 1 makes dots.
+  void point(Eigen::Vector3d const& p_world, Rgb color, int radius_px, double ahead_m = 0.0);
   void line(Eigen::Vector3d const& a_world, Eigen::Vector3d const& b_world, Rgb color,
-            double share = 1.0);
+            LineStyle const& style = {});
 
 private:
   View view_;

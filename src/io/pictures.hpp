@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 #include "core/belief.hpp"
 #include "core/frame.hpp"
 #include "core/grid.hpp"
@@ -16,24 +14,14 @@ namespace credo {
 ///    of known objects at their mean poses, dotted where not seen, and of refused detections orange
 ///  - top right the segmentation over the grey depth, each label in its colour; stuff that the
 ///    belief knows in the colour of its id
-///  - bottom left the belief in 3-D, seen obliquely from behind and above the camera: latest cloud
-///    cyan, floor red, walls pink with their segments drawn on the floor, stuff purple, yellow,
-///    green by id and paler as its probability falls, known objects outlined at their mean pose,
-///    in their colours, paler likewise
+///  - bottom left the belief in 3-D, seen obliquely from behind and above the camera: cyan what the
+///    latest cloud has beside floor, walls and stuff; floor red, walls pink with their segments
+///    drawn on the floor, stuff purple, yellow, green by id and paler as its probability falls,
+///    known objects outlined at their mean pose, in their colours, paler likewise
 ///  - bottom right the same from above, a line every metre, world x to the right
 /// Outlines are those of the objects' models; a type without one is shown by its axes.
 /// Deterministic. A frame of less than 2x2 pixels gives an empty picture.
 Grid<Rgb> draw_picture(Frame const& frame, Segmentation const& segmentation,
                        BeliefState const& belief, Outlines const& outlines);
-
-/// The colour of a label that the belief tells nothing about; black for no depth, cyan for
-/// unassigned.
-Rgb label_color(LabelCode label);
-
-/// The colour of a known object, by its position in the belief: magenta, blue, ... (thesis 4.4.1).
-Rgb object_color(std::size_t object, double probability);
-
-/// The colour of a piece of stuff in the belief's panels, the same for its whole life.
-Rgb stuff_color(std::uint32_t id, double probability);
 
 }  // namespace credo

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/palette.hpp"
 #include "io/pictures.hpp"
 #include "io/plain_pictures.hpp"
 

@@ -8,12 +8,12 @@
 
 #include "io/beliefs.hpp"
 #include "io/canvas.hpp"
+#include "io/palette.hpp"
 #include "io/plain_pictures.hpp"
 
 namespace credo::test {
 namespace {
 
-constexpr Rgb kRed = {225, 40, 40};
 constexpr Rgb kPurple = {165, 80, 235};
 
 StuffBelief stuff_of(std::uint32_t id, double log_odds, PointList points) {
@@ -148,6 +148,25 @@ TEST(Pictures, LatestCloudIsCyanAndKnownObjectsAreMarked) {
   Grid<Rgb> const after = draw_picture(frame, plain_segmentation(frame), belief, {});
   EXPECT_TRUE(shows(after, kOblique, {255, 0, 255}));
   EXPECT_TRUE(shows(after, kMap, {255, 0, 255}));
+}
+
+TEST(Pictures, KnownObjectsAreCyanLikeTheCloudThatTheyAreFoundIn) {
+  Frame const frame = plain_frame(320, 240);
+  Segmentation segmentation = plain_segmentation(frame);
+  segmentation.labels = LabelMap(320, 240, kFirstObject);
+  Grid<Rgb> const of_object = draw_picture(frame, segmentation, plain_belief(), {});
+  EXPECT_TRUE(shows(of_object, kOblique, kCyan));
+  EXPECT_TRUE(shows(of_object, kMap, kCyan));
+  segmentation.labels = LabelMap(320, 240, kFloor);
+  Grid<Rgb> const of_floor = draw_picture(frame, segmentation, plain_belief(), {});
+  EXPECT_FALSE(shows(of_floor, kOblique, kCyan)) << "floor is the belief's to show";
+}
+
+TEST(Pictures, AColorOfStuffHasItsName) {
+  EXPECT_EQ(stuff_color(8, 1.0), kPurple);
+  EXPECT_STREQ(stuff_color_name(8), "purple");
+  EXPECT_STREQ(stuff_color_name(9), "yellow");
+  EXPECT_STREQ(stuff_color_name(2), "green");
 }
 
 TEST(Pictures, StuffPalesWithItsProbability) {
