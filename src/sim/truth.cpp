@@ -18,7 +18,7 @@
 namespace credo {
 namespace {
 
-constexpr std::array<char const*, 3> kChangeWords = {"appeared", "moved", "removed"};
+constexpr std::array<char const*, 4> kChangeWords = {"appeared", "moved", "removed", "moved"};
 
 /// The box around a thing in its own frame.
 Eigen::AlignedBox3d bounds_of_thing(SceneThing const& thing) {
@@ -59,30 +59,23 @@ TrueWall wall_of(SceneThing const& thing, Eigen::Vector3d const& eye_world) {
   return wall;
 }
 
-/// As it stood before it was removed, or will stand when it appears.
-SceneThing last_known(Scene const& scene, std::size_t index, double time_s) {
-  SceneThing thing = scene.things[index];
-  bool was_there = false;
-  for (SceneEvent const& event : scene.events) {
-    if (event.thing != thing.name) {
-      continue;
-    }
-    bool const past = event.time_s <= time_s + 1e-9;
-    if (!past && (was_there || event.what != SceneChange::kAppeared)) {
-      break;
-    }
-    was_there = true;
-    thing.position_m = event.position_m.empty() ? thing.position_m : event.position_m;
-    thing.rpy_deg = event.rpy_deg.empty() ? thing.rpy_deg : event.rpy_deg;
-  }
-  return thing;
-}
-
-std::vector<TrueEvent> events_between(Scene const& scene, std::size_t from, std::size_t to) {
+/// What happened since the frame before. A swap moves two things.
+std::vector<TrueEvent> events_of(Scene const& scene, FrameIndex index) {
   std::vector<TrueEvent> events;
-  for (std::size_t i = from; i < to; ++i) {
+  if (number(index) == 0) {
+    return events;
+  }
+  double const before_s = scene_time_s(scene, FrameIndex{number(index) - 1});
+  std::size_t const end = event_count_at(scene, scene_time_s(scene, index));
+  for (std::size_t i = event_count_at(scene, before_s); i < end; ++i) {
     SceneEvent const& event = scene.events[i];
     events.push_back({kChangeWords.at(static_cast<std::size_t>(event.what)), event.thing});
+    if (event.what == SceneChange::kSwapped) {
+      events.push_back({events.back().what, event.with});
+    }
+  }
+  for (std::size_t const thing : motions_at(scene, index)) {
+    events.push_back({"moved", scene.things[thing].name});
   }
   return events;
 }
@@ -145,11 +138,7 @@ FrameTruth truth_of(Scene const& scene, FrameIndex index) {
       }
     }
   }
-  if (number(index) > 0) {
-    double const before_s = scene_time_s(scene, FrameIndex{number(index) - 1});
-    truth.events =
-        events_between(scene, event_count_at(scene, before_s), event_count_at(scene, time_s));
-  }
+  truth.events = events_of(scene, index);
   return truth;
 }
 

@@ -70,9 +70,9 @@ TEST(Visibility, BehindAnotherIsNone) {
 
 TEST(Visibility, AbsentIsNoneAndHidesNothing) {
   Scene scene = small_scene({kPlate, plate("wall", 1, 1, 2, 0, 1)});
-  scene.events = {{0, "wall", SceneChange::kRemoved, {}, {}}};
+  scene.events = {{0, "wall", SceneChange::kRemoved, {}, {}, {}}};
   EXPECT_EQ(fraction_of_first(scene), 1.0);
-  scene.events = {{0, "plate", SceneChange::kRemoved, {}, {}}};
+  scene.events = {{0, "plate", SceneChange::kRemoved, {}, {}, {}}};
   EXPECT_EQ(fraction_of_first(scene), 0.0);
 }
 
