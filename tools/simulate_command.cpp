@@ -15,11 +15,11 @@
 #include "config_arguments.hpp"
 #include "io/dataset_writer.hpp"
 #include "io/truth_json.hpp"
+#include "scene_file.hpp"
 #include "sim/scene_caster.hpp"
 #include "sim/scene_time.hpp"
 #include "sim/sim_source.hpp"
 #include "sim/truth.hpp"
-#include "source_uri.hpp"
 #include "stop_on_signal.hpp"
 
 namespace credo {
@@ -59,7 +59,7 @@ int simulate(SimulateCommand const& command) {
   std::int64_t done = 0;
   while (done < frames && !signals.token().stop_requested()) {
     auto const frame = std::get<FramePtr>(source.next());
-    FrameTruth const truth = truth_of(scene, frame->index);
+    FrameTruth const truth = truth_of(world, frame->index);
     writer.write(*frame);
     RenderedView const view =
         world.at(scene_time_s(scene, frame->index)).render(truth.T_world_camera);

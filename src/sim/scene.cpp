@@ -24,7 +24,8 @@ FieldList fields(SceneThing& thing) {
   return {
       {"name", &thing.name, {}, "", "unique in the scene"},
       choice("kind", thing.kind, {"floor", "wall", "object", "stuff"}, "what it is to the belief"),
-      {"type", &thing.type, {}, "", "of an object: its model's name; empty = its own name"},
+      {"type", &thing.type, {}, "", "of an object: what priors call its model"},
+      {"model", &thing.model, {}, "", "name or file of what it looks like; empty = see shape"},
       choice("shape", thing.shape, {"box", "cylinder", "sphere", "table"}, "its primitive"),
       {"size_m",
        NumbersTarget{&thing.size_m, 1, 5},

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/fields.hpp"
+#include "core/object_model.hpp"
 #include "core/sim_config.hpp"
 
 namespace credo {
@@ -42,8 +44,14 @@ FieldList fields(ThingWaypoint& waypoint);
 struct SceneThing {
   std::string name;
   SceneKind kind = SceneKind::kStuff;
-  /// Of an object: the name of the model that a prior calls it by. Empty: its own name (type_of).
+  /// Of an object: the name of the model that a prior calls it by. Empty: that of `model`, or its
+  /// own name (type_of).
   std::string type;
+  /// What it looks like, by the name or the file of a model of known objects, instead of shape and
+  /// size_m; it keeps the model's frame.
+  std::string model;
+  /// The model of that name; whoever reads the scene's file loads it.
+  std::shared_ptr<ObjectModel const> loaded_model;
   SceneShape shape = SceneShape::kBox;
   std::vector<double> size_m;
   std::vector<double> position_m = {0, 0, 0};
@@ -120,9 +128,9 @@ struct Scene {
 FieldList fields(Scene& scene);
 
 /// Throws InputError naming the thing that cannot be: sizes missing or not positive, names twice,
-/// no things, a type without an object, no camera path, times that do not rise, a camera that looks
-/// at where it is, an event of a thing that is unknown, or absent, or there already, a swap with
-/// itself, a place for what has a path.
+/// no things, a type without an object, a model not loaded or a size beside it, no camera path,
+/// times that do not rise, a camera that looks at where it is, an event of a thing that is unknown,
+/// or absent, or there already, a swap with itself, a place for what has a path.
 void check_scene(Scene const& scene);
 
 /// The file of a scene given by name (scenes/NAME.yaml of this project) or as a path. Throws

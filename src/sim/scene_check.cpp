@@ -28,7 +28,7 @@ std::size_t size_count(SceneShape shape) {
   throw InputError("scene " + scene.name + ": " + what);
 }
 
-void check_thing(Scene const& scene, SceneThing const& thing) {
+void check_size(Scene const& scene, SceneThing const& thing) {
   std::size_t const needed = size_count(thing.shape);
   if (thing.size_m.size() != needed) {
     refuse(scene, thing.name + ": its shape needs " + std::to_string(needed) +
@@ -36,6 +36,16 @@ void check_thing(Scene const& scene, SceneThing const& thing) {
   }
   if (std::any_of(thing.size_m.begin(), thing.size_m.end(), [](double s) { return !(s > 0); })) {
     refuse(scene, thing.name + ": every number of size_m must be positive");
+  }
+}
+
+void check_thing(Scene const& scene, SceneThing const& thing) {
+  if (thing.model.empty()) {
+    check_size(scene, thing);
+  } else if (!thing.size_m.empty()) {
+    refuse(scene, thing.name + ": its model says how large it is, leave out size_m");
+  } else if (thing.loaded_model == nullptr) {
+    refuse(scene, thing.name + ": its model " + thing.model + " was not loaded");
   }
   if (!thing.type.empty() && thing.kind != SceneKind::kObject) {
     refuse(scene, thing.name + ": only a thing of kind object has a type");

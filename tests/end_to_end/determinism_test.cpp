@@ -7,17 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "config/yaml_config.hpp"
 #include "end_to_end/known_scene.hpp"
 #include "end_to_end/program.hpp"
 #include "graph/read_ahead.hpp"
 #include "graph/run_once.hpp"
 #include "io/belief_json.hpp"
 #include "io/dataset.hpp"
-#include "sim/scene.hpp"
 #include "sim/sim_source.hpp"
 #include "support/paths.hpp"
 #include "support/recordings.hpp"
+#include "tools/scene_file.hpp"
 
 namespace credo {
 namespace {
@@ -67,9 +66,7 @@ void expect_same_at_any_thread_count(std::string const& source, int frames,
 
 TEST(Determinism, SimulatedRooms) {
   for (char const* const name : {"first-light", "wall-and-floor", "table-before-wall"}) {
-    Scene scene;
-    load_config(fields(scene), {find_scene(name)}, {});
-    auto source = std::make_unique<SimSource>(scene, PoseConfig{});
+    auto source = std::make_unique<SimSource>(load_scene(name), PoseConfig{});
     int const frames = std::min(6, static_cast<int>(source->frame_count()));
     expect_same_at_any_thread_count(std::string("sim:") + name, frames,
                                     specified_lines(std::move(source), frames, {}));

@@ -5,21 +5,19 @@
 #include <string>
 #include <variant>
 
-#include "config/yaml_config.hpp"
 #include "sim/camera_path.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/scene.hpp"
 #include "sim/scene_time.hpp"
 #include "sim/sim_source.hpp"
 #include "sim/visibility.hpp"
+#include "tools/scene_file.hpp"
 
 namespace credo::test {
 namespace {
 
 Scene project_scene(std::string const& name) {
-  Scene scene;
-  scene.name = name;
-  load_config(fields(scene), {find_scene(name)}, {});
+  Scene scene = load_scene(name);
   check_scene(scene);
   return scene;
 }
@@ -34,13 +32,13 @@ std::size_t position_of(Scene const& scene, std::string const& name) {
 double seen(Scene const& scene, std::int64_t frame, std::string const& name, bool alone = false) {
   double const time_s = scene_time_s(scene, FrameIndex{frame});
   std::size_t const position = position_of(scene, name);
-  PresentThings things = things_at(scene, time_s);
-  for (std::size_t i = 0; alone && i < things.size(); ++i) {
-    if (i != position) {
-      things[i].reset();
-    }
+  Scene shown = scene;
+  if (alone) {
+    shown.things = {things_at(scene, time_s)[position].value()};
+    shown.events.clear();
   }
-  return visible_fraction(scene.camera, things, position, camera_pose(scene.camera.path, time_s));
+  return visible_fraction(RayCaster(shown, time_s), alone ? 0 : position,
+                          camera_pose(scene.camera.path, time_s));
 }
 
 std::size_t frame_count(Scene const& scene) {

@@ -17,8 +17,7 @@ SceneThing plate(std::string name, double width_m, double height_m, double x, do
 }
 
 double fraction_of_first(Scene const& scene) {
-  return visible_fraction(scene.camera, things_at(scene, 0.0), 0,
-                          camera_pose(scene.camera.path, 0.0));
+  return visible_fraction(RayCaster(scene), 0, camera_pose(scene.camera.path, 0.0));
 }
 
 double fraction_of_first(std::vector<SceneThing> things) {
