@@ -20,6 +20,7 @@
 #include "geometry/mesh_edges.hpp"
 #include "geometry/solid.hpp"
 #include "geometry/triangle.hpp"
+#include "sim/texture.hpp"
 #include "sim/thing.hpp"
 
 namespace credo {
@@ -46,7 +47,8 @@ struct Body {
   Se3 T_world_thing;
   Eigen::Vector3d to_lamp_thing;
   Eigen::Vector3f color;
-  double checker_m = 0.0;
+  SceneTexture texture;
+  std::uint32_t texture_seed = 0;
 };
 
 /// A body and where the camera stands before it: rays are followed in the thing's frame.
@@ -166,16 +168,12 @@ void intersect_body(RTCIntersectFunctionNArguments const* arguments) {
 }
 
 /// Some light from everywhere, some from a far lamp overhead, some from the camera (Lambert), so
-/// that every edge shows; a checkerboard lies in the thing's own axes.
+/// that every edge shows.
 Rgb shade(Body const& body, RayEntry const& entry, Eigen::Vector3d const& p_thing,
           double camera_cosine) {
   double const lamp_cosine = std::max(0.0, entry.normal.dot(body.to_lamp_thing));
   auto light = static_cast<float>(0.42 + 0.3 * lamp_cosine + 0.28 * camera_cosine);
-  if (body.checker_m > 0.0) {
-    // The small shift keeps a face that lies on a border of cells in one of them.
-    Eigen::Vector3d const cell = (p_thing.array() / body.checker_m + 1e-4).floor();
-    light *= std::fmod(cell.sum(), 2.0) != 0.0 ? 0.72F : 1.0F;
-  }
+  light *= static_cast<float>(texture_shade(body.texture, body.texture_seed, p_thing));
   Eigen::Vector3f const lit = (body.color * light).cwiseMin(255.0F);
   return {static_cast<std::uint8_t>(lit.x()), static_cast<std::uint8_t>(lit.y()),
           static_cast<std::uint8_t>(lit.z())};
@@ -235,7 +233,8 @@ void RayCaster::World::add(std::size_t thing) {
             T_world_thing,
             T_world_thing.rotation().conjugate() * to_lamp_world,
             Eigen::Vector3d(one.color[0], one.color[1], one.color[2]).cast<float>(),
-            one.checker_m};
+            texture_of(one),
+            texture_seed(one.name)};
   if (TriangleMesh const* mesh = mesh_of(one); mesh != nullptr) {
     body.shape = mesh;
     bodies.push_back(body);

@@ -36,9 +36,17 @@ FieldList fields(SceneThing& thing) {
       turn(thing.rpy_deg, 3, "turns about the fixed axes x, y, z"),
       list_of("path", thing.path, "where it moves, in order of time; empty = it stands"),
       {"color", NumbersTarget{&thing.color, 3, 3}, {0, 255}, "", "red, green, blue"},
-      {"checker_m", &thing.checker_m, {0, 10}, "m", "side of a checkerboard's squares; 0 = plain"},
+      section("texture", fields(thing.texture), "a pattern in its colour"),
+      {"checker_m", &thing.checker_m, {0, 10}, "m", "short for texture: a checker of this size_m"},
       choice("surface", thing.surface, {"matte", "dark", "shiny", "glass"},
              "how it returns the light of a depth camera; glass returns none"),
+  };
+}
+
+FieldList fields(SceneTexture& texture) {
+  return {
+      choice("kind", texture.kind, {"plain", "checker", "stripes", "noise"}, "its pattern"),
+      {"size_m", &texture.size_m, {1e-3, 100}, "m", "of a square, a stripe, a blotch"},
   };
 }
 

@@ -30,6 +30,15 @@ enum class SceneSurface : std::uint8_t {
 /// What a thing is to the belief.
 enum class SceneKind : std::uint8_t { kGround, kWall, kObject, kStuff };
 
+/// A pattern in the colour of a thing, in its own frame (texture_shade). Depth does not change.
+struct SceneTexture {
+  enum class Kind : std::uint8_t { kPlain, kChecker, kStripes, kNoise };
+  Kind kind = Kind::kPlain;
+  /// Side of a square, width of a stripe, or about that of a blotch.
+  double size_m = 0.1;
+};
+FieldList fields(SceneTexture& texture);
+
 /// Where a thing that moves is at a time.
 struct ThingWaypoint {
   /// On the clock of the camera's waypoints.
@@ -62,7 +71,8 @@ struct SceneThing {
   std::vector<ThingWaypoint> path;
   /// 0 to 255.
   std::vector<double> color = {180, 180, 180};
-  /// Side of the squares of a checkerboard in two shades; 0 for one shade.
+  SceneTexture texture;
+  /// The short way to write a checkerboard: the side of its squares; 0 for none.
   double checker_m = 0.0;
   SceneSurface surface = SceneSurface::kMatte;
 };
@@ -128,9 +138,9 @@ struct Scene {
 FieldList fields(Scene& scene);
 
 /// Throws InputError naming the thing that cannot be: sizes missing or not positive, names twice,
-/// no things, a type without an object, a model not loaded or a size beside it, no camera path,
-/// times that do not rise, a camera that looks at where it is, an event of a thing that is unknown,
-/// or absent, or there already, a swap with itself, a place for what has a path.
+/// no things, a type without an object, a model not loaded or a size beside it, two textures, no
+/// camera path, times that do not rise, a camera that looks at where it is, an event of a thing
+/// that is unknown, or absent, or there already, a swap with itself, a place for what has a path.
 void check_scene(Scene const& scene);
 
 /// The file of a scene given by name (scenes/NAME.yaml of this project) or as a path. Throws

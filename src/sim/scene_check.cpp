@@ -47,6 +47,9 @@ void check_thing(Scene const& scene, SceneThing const& thing) {
   } else if (thing.loaded_model == nullptr) {
     refuse(scene, thing.name + ": its model " + thing.model + " was not loaded");
   }
+  if (thing.checker_m > 0.0 && thing.texture.kind != SceneTexture::Kind::kPlain) {
+    refuse(scene, thing.name + ": give checker_m or texture, not both");
+  }
   if (!thing.type.empty() && thing.kind != SceneKind::kObject) {
     refuse(scene, thing.name + ": only a thing of kind object has a type");
   }

@@ -30,6 +30,11 @@ TriangleMesh const* mesh_of(SceneThing const& thing) {
                                        : nullptr;
 }
 
+SceneTexture texture_of(SceneThing const& thing) {
+  return thing.checker_m > 0.0 ? SceneTexture{SceneTexture::Kind::kChecker, thing.checker_m}
+                               : thing.texture;
+}
+
 Eigen::AlignedBox3d bounds_of_thing(SceneThing const& thing) {
   Eigen::AlignedBox3d box;
   if (TriangleMesh const* mesh = mesh_of(thing); mesh != nullptr) {

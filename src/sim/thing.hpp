@@ -20,6 +20,9 @@ std::vector<Solid> solids_of(SceneThing const& thing);
 /// The mesh of a thing's model; null where it is made of bodies. It lives as long as the model.
 TriangleMesh const* mesh_of(SceneThing const& thing);
 
+/// Its texture, also where it is written as checker_m.
+SceneTexture texture_of(SceneThing const& thing);
+
 /// The box around a thing, in its own frame.
 Eigen::AlignedBox3d bounds_of_thing(SceneThing const& thing);
 

@@ -51,7 +51,7 @@ TEST(Scene, IsReadFromYaml) {
 things:
   - {name: table, kind: object, type: desk, shape: table, size_m: [0.8, 1.2, 0.72, 0.04, 0.06], position_m: [2, 0, 0], rpy_deg: [0, 0, 30], color: [1, 2, 3], checker_m: 0.1}
   - {name: mug, shape: cylinder, size_m: [0.04, 0.1]}
-  - {name: cat, shape: sphere, size_m: [0.2], path: [{time_s: 1, position_m: [1, 2, 0]}, {time_s: 2, position_m: [3, 2, 0], yaw_deg: 90}]}
+  - {name: cat, shape: sphere, size_m: [0.2], texture: {kind: stripes, size_m: 0.03}, path: [{time_s: 1, position_m: [1, 2, 0]}, {time_s: 2, position_m: [3, 2, 0], yaw_deg: 90}]}
 events:
   - {time_s: 0.5, thing: mug, what: removed}
   - {time_s: 2, thing: mug, what: appeared, position_m: [1, 2, 3], rpy_deg: [0, 0, 90]}
@@ -75,6 +75,9 @@ camera:
   EXPECT_EQ(table.checker_m, 0.1);
   EXPECT_EQ(scene.things[1].kind, SceneKind::kStuff);
   EXPECT_EQ(scene.things[1].type, "");
+  EXPECT_EQ(scene.things[1].texture.kind, SceneTexture::Kind::kPlain);
+  EXPECT_EQ(scene.things[2].texture.kind, SceneTexture::Kind::kStripes);
+  EXPECT_EQ(scene.things[2].texture.size_m, 0.03);
   EXPECT_THAT(scene.things[1].path, ElementsAre());
   ASSERT_EQ(scene.things[2].path.size(), 2U);
   EXPECT_EQ(scene.things[2].path[1].time_s, 2.0);
@@ -146,6 +149,14 @@ TEST(Scene, TheCameraHasAWayToGo) {
               scene.camera.path[1].look_at_m = {0, 1, 1};
             }),
             "scene test: camera.path[1] looks at where it is");
+}
+
+TEST(Scene, AThingHasOneTexture) {
+  EXPECT_EQ(check_error([](Scene& scene) {
+              scene.things[1].checker_m = 0.1;
+              scene.things[1].texture.kind = SceneTexture::Kind::kNoise;
+            }),
+            "scene test: ball: give checker_m or texture, not both");
 }
 
 TEST(Scene, OnlyObjectsHaveAType) {
