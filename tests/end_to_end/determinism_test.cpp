@@ -92,6 +92,16 @@ TEST(Determinism, KnownObjectsAndANoisyDetector) {
   }
 }
 
+// People who walk, meshes, and two hundred things.
+TEST(Determinism, ScenesThatMoveAndScenesThatAreFull) {
+  for (char const* const name : {"corridor-loop", "room-of-200"}) {
+    constexpr int kFrames = 2;
+    auto source = std::make_unique<SimSource>(load_scene(name), PoseConfig{});
+    expect_same_at_any_thread_count(std::string("sim:") + name, kFrames,
+                                    specified_lines(std::move(source), kFrames, {}));
+  }
+}
+
 TEST(Determinism, FramesOfTheKitchen) {
   CREDO_REQUIRE_RECORDING("kitchen");
   fs::path const folder = test::recordings() / "kitchen";
