@@ -32,7 +32,8 @@ constexpr char const* kExamples = R"(Examples:
 
 DIR receives a TUM RGB-D dataset (depth/, rgb/, depth.txt, rgb.txt, groundtruth.txt,
 camera-intrinsics.txt; depth to 0.2 mm), and what is true: truth.jsonl, a line a frame, and
-truth/NNNNNN.png, the labels of its pixels. A scene is a name from scenes/ or a file like those.)";
+truth/NNNNNN.png, the labels of its pixels. A scene is a name from scenes/ or a file like those; how
+to write one: docs/scenes.md.)";
 
 struct SimulateCommand {
   std::string scene;
