@@ -23,7 +23,7 @@
 #include "io/pcd.hpp"
 #include "io/scores_json.hpp"
 #include "io/truth_json.hpp"
-#include "known_objects.hpp"
+#include "model_files.hpp"
 #include "score_table.hpp"
 
 namespace credo {
@@ -139,8 +139,8 @@ TrueModels models_for(std::vector<FrameTruth> const& truth, fs::path const& fold
   }
   TrueModels models;
   for (std::string const& type : types) {
-    if (auto const model = find_known_model(type, folder)) {
-      models.emplace(type, TrueModel(*model));
+    if (fs::path const file = model_called(type, folder); !file.empty()) {
+      models.emplace(type, TrueModel(load_model(file, notes)));
     } else {
       notes.push_back("no model is called " + type +
                       ": its symmetry is not known, ADD-S leaves it out");

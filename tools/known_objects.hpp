@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,11 +24,6 @@ struct LoadedPrior {
 /// name: NAME.yaml beside the prior, in a folder models/ there, or in models/ of this project.
 /// Throws InputError with one line for the first fault, or for all of one file's.
 LoadedPrior load_prior(std::filesystem::path const& path, double probability);
-
-/// The model of that name, looked for as a prior in `folder` looks for it; none where there is
-/// none. Throws InputError for a model that is not right.
-std::optional<ObjectModel> find_known_model(std::string const& name,
-                                            std::filesystem::path const& folder);
 
 /// The detector that the config asks for; null for `none`. Throws InputError where it cannot be
 /// had: a file that is not right, or `sim` for a source that is no scene.

@@ -15,11 +15,11 @@
 #include "config_arguments.hpp"
 #include "io/dataset_writer.hpp"
 #include "io/truth_json.hpp"
-#include "sim/ray_caster.hpp"
+#include "scene_file.hpp"
+#include "sim/scene_caster.hpp"
 #include "sim/scene_time.hpp"
 #include "sim/sim_source.hpp"
 #include "sim/truth.hpp"
-#include "source_uri.hpp"
 #include "stop_on_signal.hpp"
 
 namespace credo {
@@ -32,34 +32,14 @@ constexpr char const* kExamples = R"(Examples:
 
 DIR receives a TUM RGB-D dataset (depth/, rgb/, depth.txt, rgb.txt, groundtruth.txt,
 camera-intrinsics.txt; depth to 0.2 mm), and what is true: truth.jsonl, a line a frame, and
-truth/NNNNNN.png, the labels of its pixels. A scene is a name from scenes/ or a file like those.)";
+truth/NNNNNN.png, the labels of its pixels. A scene is a name from scenes/ or a file like those; how
+to write one: docs/scenes.md.)";
 
 struct SimulateCommand {
   std::string scene;
   std::filesystem::path out;
   ConfigArguments config;
   std::optional<std::int64_t> frames;
-};
-
-/// The label images of a scene, rendered anew: a frame does not tell what it shows.
-class LabelRenderer {
-public:
-  explicit LabelRenderer(Scene const& scene) : scene_(scene) {}
-
-  LabelMap labels(FrameTruth const& truth, Frame const& frame) {
-    double const time_s = scene_time_s(scene_, frame.index);
-    std::size_t const event_count = event_count_at(scene_, time_s);
-    if (caster_ == nullptr || event_count != event_count_) {
-      caster_ = std::make_unique<RayCaster const>(scene_, time_s);
-      event_count_ = event_count;
-    }
-    return true_labels(scene_, caster_->render(truth.T_world_camera), frame.cloud_camera.z);
-  }
-
-private:
-  Scene const& scene_;
-  std::unique_ptr<RayCaster const> caster_;
-  std::size_t event_count_ = 0;
 };
 
 void show_progress(std::int64_t done, std::int64_t all) {
@@ -76,13 +56,16 @@ int simulate(SimulateCommand const& command) {
   auto const all = static_cast<std::int64_t>(source.frame_count());
   std::int64_t const frames = std::min(all, command.frames.value_or(all));
   DatasetWriter writer(command.out);
-  LabelRenderer renderer(scene);
+  SceneCaster world(scene);  // a frame does not tell what it shows: rendered anew
   std::int64_t done = 0;
   while (done < frames && !signals.token().stop_requested()) {
     auto const frame = std::get<FramePtr>(source.next());
-    FrameTruth const truth = truth_of(scene, frame->index);
+    FrameTruth const truth = truth_of(world, frame->index);
     writer.write(*frame);
-    writer.write_truth(frame->index, truth_json(truth), renderer.labels(truth, *frame));
+    RenderedView const view =
+        world.at(scene_time_s(scene, frame->index)).render(truth.T_world_camera);
+    writer.write_truth(frame->index, truth_json(truth),
+                       true_labels(scene, view, frame->cloud_camera.z));
     show_progress(++done, frames);
   }
   std::cout << fmt::format("{} frames of {} in {}\n", done, scene.name, command.out.string());

@@ -4,10 +4,10 @@
 #include <memory>
 #include <utility>
 
-#include "config/yaml_config.hpp"
 #include "core/error.hpp"
 #include "openni/oni_source.hpp"
 #include "openni/openni_source.hpp"
+#include "scene_file.hpp"
 #include "sim/sim_source.hpp"
 
 namespace credo {
@@ -21,13 +21,6 @@ OpenedSource open_sim(std::string const& name_or_file, PoseConfig const& pose,
 }
 
 }  // namespace
-
-Scene load_scene(std::string const& name_or_file) {
-  Scene scene;
-  scene.name = name_or_file;
-  load_config(fields(scene), {find_scene(name_or_file)}, {});
-  return scene;
-}
 
 OpenedSource open_source(std::string const& uri, CaptureConfig const& capture,
                          PoseConfig const& pose, SimConfig const& sim,

@@ -6,12 +6,8 @@
 #include "core/capture_config.hpp"
 #include "core/sim_config.hpp"
 #include "io/dataset.hpp"
-#include "sim/scene.hpp"
 
 namespace credo {
-
-/// A scene by name or file. Throws InputError where there is none or it is not right.
-Scene load_scene(std::string const& name_or_file);
 
 /// Opens what `--source` names: `dataset:DIR`, `sim:NAME-or-FILE`, `oni:FILE`, `openni:` or
 /// `openni:URI`; the last ends on `stop`. Throws InputError where it cannot be opened or is of no

@@ -54,4 +54,26 @@ NearestOnTriangle nearest_on_triangle(std::array<Eigen::Vector3d, 3> const& corn
   return nearest;
 }
 
+std::optional<double> distance_to_triangle(std::array<Eigen::Vector3d, 3> const& corners,
+                                           Eigen::Vector3d const& origin,
+                                           Eigen::Vector3d const& direction) {
+  std::array<Eigen::Vector3d, 3> const from_eye = {corners[0] - origin, corners[1] - origin,
+                                                   corners[2] - origin};
+  bool left = false;
+  bool right = false;
+  for (std::size_t edge = 0; edge < 3; ++edge) {
+    // The edge as the neighbour runs along it gives this number with the other sign, exactly.
+    double const side = direction.dot(from_eye[edge].cross(from_eye[(edge + 1) % 3]));
+    left = left || side > 0.0;
+    right = right || side < 0.0;
+  }
+  Eigen::Vector3d const normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  double const slope = normal.dot(direction);
+  if ((left && right) || slope == 0.0) {
+    return std::nullopt;
+  }
+  double const distance = normal.dot(from_eye[0]) / slope;
+  return distance >= 0.0 ? std::optional(distance) : std::nullopt;
+}
+
 }  // namespace credo

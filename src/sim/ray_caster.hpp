@@ -1,12 +1,17 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "core/frame.hpp"
 #include "core/grid.hpp"
 #include "core/se3.hpp"
 #include "sim/scene.hpp"
+#include "sim/scene_time.hpp"
 
 namespace credo {
 
@@ -22,9 +27,18 @@ struct RenderedView {
   Grid<float> incidence_cosine;
 };
 
-/// The bodies of a scene as it stands at one time, in a tree built once (Embree). Each ray is
-/// followed into the bodies' equations in doubles: depth is exact to float precision and the same
-/// on every machine. A body that the camera is inside of is not seen.
+/// What the ray through a pixel hits first.
+struct PixelHit {
+  /// Position in Scene::things; none where nothing is hit.
+  std::optional<std::size_t> thing;
+  /// Along the optical axis, in range or not.
+  double depth_m = std::numeric_limits<double>::infinity();
+};
+
+/// The things of a scene as it stands at one time, in a tree built once (Embree). Each ray is
+/// followed in doubles, into the equations of bodies and to the triangles of meshes: depth is exact
+/// to float precision and the same on every machine. A body that the camera is inside of is not
+/// seen; a mesh is seen from both sides.
 class RayCaster {
 public:
   /// Throws InputError for a scene that check_scene refuses.
@@ -36,8 +50,18 @@ public:
   RayCaster& operator=(RayCaster&&) = delete;
   ~RayCaster();
 
+  [[nodiscard]] SceneCamera const& camera() const;
+  /// As they stand at the caster's time.
+  [[nodiscard]] PresentThings const& things() const;
+
   /// One ray through the centre of each pixel. The same at any number of threads.
   [[nodiscard]] RenderedView render(Se3 const& T_world_camera) const;
+
+  /// The same rays through some pixels, which may lie outside the picture, one after the other; of
+  /// `only`, as if that thing were alone.
+  [[nodiscard]] std::vector<PixelHit> look(Se3 const& T_world_camera,
+                                           std::vector<Pixel> const& pixels,
+                                           std::optional<std::size_t> only = {}) const;
 
 private:
   struct World;

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/fields.hpp"
+#include "core/object_model.hpp"
 #include "core/sim_config.hpp"
 
 namespace credo {
@@ -28,20 +30,49 @@ enum class SceneSurface : std::uint8_t {
 /// What a thing is to the belief.
 enum class SceneKind : std::uint8_t { kGround, kWall, kObject, kStuff };
 
+/// A pattern in the colour of a thing, in its own frame (texture_shade). Depth does not change.
+struct SceneTexture {
+  enum class Kind : std::uint8_t { kPlain, kChecker, kStripes, kNoise };
+  Kind kind = Kind::kPlain;
+  /// Side of a square, width of a stripe, or about that of a blotch.
+  double size_m = 0.1;
+};
+FieldList fields(SceneTexture& texture);
+
+/// Where a thing that moves is at a time.
+struct ThingWaypoint {
+  /// On the clock of the camera's waypoints.
+  double time_s = 0.0;
+  std::vector<double> position_m = {0, 0, 0};
+  /// How far it is turned about the world's z, beyond the thing's own turn.
+  double yaw_deg = 0.0;
+};
+FieldList fields(ThingWaypoint& waypoint);
+
 /// One thing of a scene. It stands on the centre of its base, z up, before it is turned and moved.
 struct SceneThing {
   std::string name;
   SceneKind kind = SceneKind::kStuff;
-  /// Of an object: the name of the model that a prior calls it by. Empty: its own name (type_of).
+  /// Of an object: the name of the model that a prior calls it by. Empty: that of `model`, or its
+  /// own name (type_of).
   std::string type;
+  /// What it looks like, by the name or the file of a model of known objects, instead of shape and
+  /// size_m; it keeps the model's frame.
+  std::string model;
+  /// The model of that name; whoever reads the scene's file loads it.
+  std::shared_ptr<ObjectModel const> loaded_model;
   SceneShape shape = SceneShape::kBox;
   std::vector<double> size_m;
   std::vector<double> position_m = {0, 0, 0};
   /// Turns about the fixed axes x, y, z.
   std::vector<double> rpy_deg = {0, 0, 0};
+  /// In order of time. Between two of them it moves straight and evenly; before the first and after
+  /// the last it rests. Empty: it stands at position_m.
+  std::vector<ThingWaypoint> path;
   /// 0 to 255.
   std::vector<double> color = {180, 180, 180};
-  /// Side of the squares of a checkerboard in two shades; 0 for one shade.
+  SceneTexture texture;
+  /// The short way to write a checkerboard: the side of its squares; 0 for none.
   double checker_m = 0.0;
   SceneSurface surface = SceneSurface::kMatte;
 };
@@ -77,7 +108,7 @@ struct SceneCamera {
 };
 FieldList fields(SceneCamera& camera);
 
-enum class SceneChange : std::uint8_t { kAppeared, kMoved, kRemoved };
+enum class SceneChange : std::uint8_t { kAppeared, kMoved, kRemoved, kSwapped };
 
 /// What happens to a thing, seen from the first frame at or after its time. A thing whose first
 /// event is that it appears is absent before.
@@ -87,6 +118,8 @@ struct SceneEvent {
   /// Its name.
   std::string thing;
   SceneChange what = SceneChange::kMoved;
+  /// Of a swap: the name of the thing that it trades places with. Each keeps its turn.
+  std::string with;
   /// Where it stands from then on, three numbers. Empty: it appears where Scene::things has it.
   std::vector<double> position_m;
   /// Three numbers. Empty: what moves keeps its turn, what appears has that of Scene::things.
@@ -105,8 +138,9 @@ struct Scene {
 FieldList fields(Scene& scene);
 
 /// Throws InputError naming the thing that cannot be: sizes missing or not positive, names twice,
-/// no things, a type without an object, no camera path, times that do not rise, a camera that looks
-/// at where it is, an event of a thing that is unknown, or absent, or there already.
+/// no things, a type without an object, a model not loaded or a size beside it, two textures, no
+/// camera path, times that do not rise, a camera that looks at where it is, an event of a thing
+/// that is unknown, or absent, or there already, a swap with itself, a place for what has a path.
 void check_scene(Scene const& scene);
 
 /// The file of a scene given by name (scenes/NAME.yaml of this project) or as a path. Throws

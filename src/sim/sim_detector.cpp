@@ -102,9 +102,7 @@ Detection false_alarm(SimDetectorConfig const& config, SceneCamera const& camera
 }  // namespace
 
 SimDetector::SimDetector(Scene const& scene, SimDetectorConfig const& config)
-    : scene_(scene), config_(config) {
-  check_scene(scene);
-}
+    : world_(scene), config_(config) {}
 
 std::vector<Detection> SimDetector::detect(Frame const& frame,
                                            std::vector<DetectionRequest> const& requests) {
@@ -113,15 +111,17 @@ std::vector<Detection> SimDetector::detect(Frame const& frame,
   for (DetectionRequest const& request : requests) {
     types.insert(request.type);
   }
-  double const time_s = scene_time_s(scene_, frame.index);
-  PresentThings const things = things_at(scene_, time_s);
-  Se3 const T_world_camera = camera_pose(scene_.camera.path, time_s);
+  SceneCamera const& camera = world_.scene().camera;
+  double const time_s = scene_time_s(world_.scene(), frame.index);
+  RayCaster const& world = world_.at(time_s);
+  PresentThings const& things = world.things();
+  Se3 const T_world_camera = camera_pose(camera.path, time_s);
   std::vector<Detection> found;
   for (std::size_t i = 0; i < things.size(); ++i) {
     auto const& thing = things[i];
     if (thing.has_value() && thing->kind == SceneKind::kObject &&
         types.count(type_of(*thing)) == 1) {
-      double const visible = visible_fraction(scene_.camera, things, i, T_world_camera);
+      double const visible = visible_fraction(world, i, T_world_camera);
       std::mt19937_64 random = generator(config_, frame.index, Draw::kThing, i);
       bool const missed = uniform(random, 0.0, 1.0) < config_.miss_probability;
       if (!missed && visible > 0.0 && visible >= config_.min_visible_fraction) {
@@ -132,8 +132,8 @@ std::vector<Detection> SimDetector::detect(Frame const& frame,
   }
   std::size_t const alarm_count = types.empty() ? 0 : false_alarm_count(config_, frame.index);
   for (std::size_t i = 0; i < alarm_count; ++i) {
-    found.push_back(false_alarm(config_, scene_.camera, types,
-                                generator(config_, frame.index, Draw::kAlarm, i)));
+    found.push_back(
+        false_alarm(config_, camera, types, generator(config_, frame.index, Draw::kAlarm, i)));
   }
   std::this_thread::sleep_until(begin + std::chrono::duration<double>(config_.latency_s));
   return found;

@@ -5,6 +5,7 @@
 #include "core/detection.hpp"
 #include "core/detector_config.hpp"
 #include "sim/scene.hpp"
+#include "sim/scene_caster.hpp"
 
 namespace credo {
 
@@ -31,7 +32,7 @@ public:
                                 std::vector<DetectionRequest> const& requests) override;
 
 private:
-  Scene scene_;
+  SceneCaster world_;
   SimDetectorConfig config_;
 };
 

@@ -1,6 +1,7 @@
 #include "sim/sim_source.hpp"
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "core/error.hpp"
@@ -11,23 +12,30 @@
 
 namespace credo {
 
-SimSource::SimSource(Scene const& scene, PoseConfig const& pose, SimConfig const& sim)
-    : scene_(scene), has_poses_(pose.source == PoseSource::kRecorded), seed_(sim.seed) {
+namespace {
+
+/// The scene with the sensor that the config names.
+Scene with_sensor(Scene scene, SimConfig const& sim) {
   if (sim.sensor != SimConfig::Sensor::kOfScene) {
-    scene_.camera.sensor = static_cast<SensorModel>(static_cast<int>(sim.sensor) - 1);
+    scene.camera.sensor = static_cast<SensorModel>(static_cast<int>(sim.sensor) - 1);
   }
-  check_scene(scene);
+  return scene;
+}
+
+}  // namespace
+
+SimSource::SimSource(Scene const& scene, PoseConfig const& pose, SimConfig const& sim)
+    : world_(with_sensor(scene, sim)),
+      has_poses_(pose.source == PoseSource::kRecorded),
+      seed_(sim.seed) {
   if (pose.source == PoseSource::kFile) {
     throw InputError("scene " + scene.name +
                      ": a simulated camera has its own poses; pose.source must not be file");
   }
-  auto const& path = scene_.camera.path;
+  auto const& path = scene.camera.path;
   double const duration_s = path.back().time_s - path.front().time_s;
   frame_count_ =
-      1 + static_cast<std::size_t>(std::floor(duration_s * scene_.camera.frames_per_s + 1e-9));
-  double const start_s = scene_time_s(scene_, FrameIndex{0});
-  event_count_ = event_count_at(scene_, start_s);
-  caster_ = std::make_unique<RayCaster>(scene_, start_s);
+      1 + static_cast<std::size_t>(std::floor(duration_s * scene.camera.frames_per_s + 1e-9));
 }
 
 SourceResult SimSource::next() {
@@ -35,21 +43,18 @@ SourceResult SimSource::next() {
     return EndOfSource{};
   }
   FrameIndex const index{static_cast<std::int64_t>(position_++)};
-  SceneCamera const& camera = scene_.camera;
-  double const time_s = scene_time_s(scene_, index);
-  if (std::size_t const count = event_count_at(scene_, time_s); count != event_count_) {
-    event_count_ = count;
-    caster_ = std::make_unique<RayCaster>(scene_, time_s);
-  }
+  Scene const& scene = world_.scene();
+  SceneCamera const& camera = scene.camera;
+  double const time_s = scene_time_s(scene, index);
   Se3 const T_world_camera = camera_pose(camera.path, time_s);
-  RenderedView view = caster_->render(T_world_camera);
+  RenderedView view = world_.at(time_s).render(T_world_camera);
   auto frame = std::make_shared<Frame>();
   frame->index = index;
-  double const since_s = time_s - scene_time_s(scene_, FrameIndex{0});
+  double const since_s = time_s - scene_time_s(scene, FrameIndex{0});
   frame->stamp_ns = static_cast<std::int64_t>(std::llround(since_s * 1e9));
   frame->intrinsics = {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
-  frame->cloud_camera = cloud_from_depth(measured_depth(view, scene_, camera.sensor, seed_, index),
-                                         frame->intrinsics);
+  frame->cloud_camera =
+      cloud_from_depth(measured_depth(view, scene, camera.sensor, seed_, index), frame->intrinsics);
   frame->color = std::move(view.color);
   frame->T_source_camera =
       has_poses_ ? told_pose(camera, T_world_camera, since_s, seed_, index) : Se3{};

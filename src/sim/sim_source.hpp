@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 
 #include "core/capture_config.hpp"
 #include "core/frame_source.hpp"
-#include "sim/ray_caster.hpp"
 #include "sim/scene.hpp"
+#include "sim/scene_caster.hpp"
 
 namespace credo {
 
@@ -23,12 +22,9 @@ public:
   SourceResult next() override;
 
 private:
-  Scene scene_;
+  SceneCaster world_;
   bool has_poses_;
   int seed_;
-  /// Of the things after the first event_count_ events.
-  std::unique_ptr<RayCaster const> caster_;
-  std::size_t event_count_;
   std::size_t frame_count_;
   std::size_t position_ = 0;
 };

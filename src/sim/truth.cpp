@@ -1,5 +1,7 @@
 #include "sim/truth.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "geometry/solid.hpp"
 #include "sim/camera_path.hpp"
 #include "sim/scene_time.hpp"
 #include "sim/thing.hpp"
@@ -18,16 +19,7 @@
 namespace credo {
 namespace {
 
-constexpr std::array<char const*, 3> kChangeWords = {"appeared", "moved", "removed"};
-
-/// The box around a thing in its own frame.
-Eigen::AlignedBox3d bounds_of_thing(SceneThing const& thing) {
-  Eigen::AlignedBox3d box;
-  for (Solid const& solid : solids_of(thing)) {
-    box.extend(bounds_of(solid));
-  }
-  return box;
-}
+constexpr std::array<char const*, 4> kChangeWords = {"appeared", "moved", "removed", "moved"};
 
 TrueFloor floor_of(SceneThing const& thing) {
   Se3 const T_world_thing = pose_of(thing);
@@ -59,32 +51,34 @@ TrueWall wall_of(SceneThing const& thing, Eigen::Vector3d const& eye_world) {
   return wall;
 }
 
-/// As it stood before it was removed, or will stand when it appears.
-SceneThing last_known(Scene const& scene, std::size_t index, double time_s) {
-  SceneThing thing = scene.things[index];
-  bool was_there = false;
-  for (SceneEvent const& event : scene.events) {
-    if (event.thing != thing.name) {
-      continue;
-    }
-    bool const past = event.time_s <= time_s + 1e-9;
-    if (!past && (was_there || event.what != SceneChange::kAppeared)) {
-      break;
-    }
-    was_there = true;
-    thing.position_m = event.position_m.empty() ? thing.position_m : event.position_m;
-    thing.rpy_deg = event.rpy_deg.empty() ? thing.rpy_deg : event.rpy_deg;
-  }
-  return thing;
-}
-
-std::vector<TrueEvent> events_between(Scene const& scene, std::size_t from, std::size_t to) {
+/// What happened since the frame before. A swap moves two things.
+std::vector<TrueEvent> events_of(Scene const& scene, FrameIndex index) {
   std::vector<TrueEvent> events;
-  for (std::size_t i = from; i < to; ++i) {
+  if (number(index) == 0) {
+    return events;
+  }
+  double const before_s = scene_time_s(scene, FrameIndex{number(index) - 1});
+  std::size_t const end = event_count_at(scene, scene_time_s(scene, index));
+  for (std::size_t i = event_count_at(scene, before_s); i < end; ++i) {
     SceneEvent const& event = scene.events[i];
     events.push_back({kChangeWords.at(static_cast<std::size_t>(event.what)), event.thing});
+    if (event.what == SceneChange::kSwapped) {
+      events.push_back({events.back().what, event.with});
+    }
+  }
+  for (std::size_t const thing : motions_at(scene, index)) {
+    events.push_back({"moved", scene.things[thing].name});
   }
   return events;
+}
+
+/// Of each thing.
+std::vector<double> visible_fractions(RayCaster const& world, Se3 const& T_world_camera) {
+  std::vector<double> shares(world.things().size());
+  tbb::parallel_for(std::size_t{0}, shares.size(), [&](std::size_t thing) {
+    shares[thing] = visible_fraction(world, thing, T_world_camera);
+  });
+  return shares;
 }
 
 }  // namespace
@@ -107,20 +101,20 @@ std::vector<LabelCode> labels_of_things(Scene const& scene) {
   return labels;
 }
 
-FrameTruth truth_of(Scene const& scene, FrameIndex index) {
+FrameTruth truth_of(SceneCaster& world, FrameIndex index) {
+  Scene const& scene = world.scene();
   double const time_s = scene_time_s(scene, index);
   double const since_s = time_s - scene_time_s(scene, FrameIndex{0});
-  PresentThings const things = things_at(scene, time_s);
   std::vector<LabelCode> const labels = labels_of_things(scene);
   FrameTruth truth;
   truth.frame = index;
   truth.stamp_ns = static_cast<std::int64_t>(std::llround(since_s * 1e9));
   truth.T_world_camera = camera_pose(scene.camera.path, time_s);
-  for (std::size_t i = 0; i < things.size(); ++i) {
-    bool const present = things[i].has_value();
-    SceneThing const thing = present ? *things[i] : last_known(scene, i, time_s);
-    double const visible =
-        present ? visible_fraction(scene.camera, things, i, truth.T_world_camera) : 0.0;
+  RayCaster const& caster = world.at(time_s);
+  std::vector<double> const visible = visible_fractions(caster, truth.T_world_camera);
+  for (std::size_t i = 0; i < scene.things.size(); ++i) {
+    bool const present = caster.things()[i].has_value();
+    SceneThing const thing = present ? *caster.things()[i] : last_known(scene, i, time_s);
     switch (thing.kind) {
       case SceneKind::kGround:
         if (present) {
@@ -130,7 +124,7 @@ FrameTruth truth_of(Scene const& scene, FrameIndex index) {
       case SceneKind::kWall:
         if (present) {
           TrueWall wall = wall_of(thing, truth.T_world_camera.translation());
-          wall.visible_fraction = visible;
+          wall.visible_fraction = visible[i];
           wall.label = labels[i];
           truth.walls.push_back(std::move(wall));
         }
@@ -140,17 +134,18 @@ FrameTruth truth_of(Scene const& scene, FrameIndex index) {
         bool const object = thing.kind == SceneKind::kObject;
         (object ? truth.objects : truth.stuff)
             .push_back({thing.name, object ? type_of(thing) : std::string(), pose_of(thing),
-                        present, visible, labels[i]});
+                        present, visible[i], labels[i]});
         break;
       }
     }
   }
-  if (number(index) > 0) {
-    double const before_s = scene_time_s(scene, FrameIndex{number(index) - 1});
-    truth.events =
-        events_between(scene, event_count_at(scene, before_s), event_count_at(scene, time_s));
-  }
+  truth.events = events_of(scene, index);
   return truth;
+}
+
+FrameTruth truth_of(Scene const& scene, FrameIndex index) {
+  SceneCaster world(scene);
+  return truth_of(world, index);
 }
 
 LabelMap true_labels(Scene const& scene, RenderedView const& view, Grid<float> const& measured_m) {

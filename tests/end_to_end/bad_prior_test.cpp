@@ -115,7 +115,7 @@ TEST_F(BadPriors, AModelThatNobodyKnows) {
       "sigma_rotation_rad: 0.1}");
   EXPECT_EQ(error(),
             "credo: /prior.yaml: object a: no model is called nope; models are bottle, green-box, "
-            "table, others are told by their file\n");
+            "mug, table, others are told by their file\n");
 }
 
 TEST_F(BadPriors, AModelWithoutAShape) {

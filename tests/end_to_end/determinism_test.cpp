@@ -7,17 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "config/yaml_config.hpp"
 #include "end_to_end/known_scene.hpp"
 #include "end_to_end/program.hpp"
 #include "graph/read_ahead.hpp"
 #include "graph/run_once.hpp"
 #include "io/belief_json.hpp"
 #include "io/dataset.hpp"
-#include "sim/scene.hpp"
 #include "sim/sim_source.hpp"
 #include "support/paths.hpp"
 #include "support/recordings.hpp"
+#include "tools/scene_file.hpp"
 
 namespace credo {
 namespace {
@@ -67,9 +66,7 @@ void expect_same_at_any_thread_count(std::string const& source, int frames,
 
 TEST(Determinism, SimulatedRooms) {
   for (char const* const name : {"first-light", "wall-and-floor", "table-before-wall"}) {
-    Scene scene;
-    load_config(fields(scene), {find_scene(name)}, {});
-    auto source = std::make_unique<SimSource>(scene, PoseConfig{});
+    auto source = std::make_unique<SimSource>(load_scene(name), PoseConfig{});
     int const frames = std::min(6, static_cast<int>(source->frame_count()));
     expect_same_at_any_thread_count(std::string("sim:") + name, frames,
                                     specified_lines(std::move(source), frames, {}));
@@ -92,6 +89,16 @@ TEST(Determinism, KnownObjectsAndANoisyDetector) {
         {"--prior", test::source_folder().string() + "/scenes/priors/" + name + ".yaml", "--set",
          "detector.kind=sim", "--set", "detector.sim.miss_probability=0.2", "--set",
          "detector.sim.false_alarms_per_frame=1", "--set", "detector.sim.seed=7"});
+  }
+}
+
+// People who walk, meshes, and two hundred things.
+TEST(Determinism, ScenesThatMoveAndScenesThatAreFull) {
+  for (char const* const name : {"corridor-loop", "room-of-200"}) {
+    constexpr int kFrames = 2;
+    auto source = std::make_unique<SimSource>(load_scene(name), PoseConfig{});
+    expect_same_at_any_thread_count(std::string("sim:") + name, kFrames,
+                                    specified_lines(std::move(source), kFrames, {}));
   }
 }
 

@@ -145,7 +145,7 @@ TEST(Histories, AMinuteOfSightIsNotBelievedForAnotherMinute) {
   known.scene.camera.frames_per_s = 30;
   known.scene.camera.path = {{0, {0, 0, 1.4}, {2, 0, 0.6}}, {120, {0, 0, 1.4}, {2, 0, 0.6}}};
   for (char const* const thing : {"box", "parcel"}) {
-    known.scene.events.push_back({59.99, thing, SceneChange::kRemoved, {}, {}});
+    known.scene.events.push_back({59.99, thing, SceneChange::kRemoved, {}, {}, {}});
   }
   std::vector<BeliefPtr> const beliefs = run_scene(known, exact_detector());
   ASSERT_EQ(beliefs.size(), 3601U);

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "config/yaml_config.hpp"
-#include "core/model_file.hpp"
 #include "core/prior_file.hpp"
 #include "graph/read_ahead.hpp"
 #include "graph/run_once.hpp"
@@ -17,6 +16,8 @@
 #include "sim/sim_source.hpp"
 #include "sim/thing.hpp"
 #include "support/paths.hpp"
+#include "tools/model_files.hpp"
+#include "tools/scene_file.hpp"
 
 namespace credo::test {
 namespace {
@@ -30,17 +31,12 @@ fs::path project() {
 }  // namespace
 
 Scene project_scene(std::string const& name) {
-  Scene scene;
-  scene.name = name;
-  load_config(fields(scene), {find_scene(name)}, {});
-  return scene;
+  return load_scene(name);
 }
 
 ObjectModel project_model(std::string const& name) {
-  fs::path const path = project() / "models" / (name + ".yaml");
-  ModelFile file;
-  load_config(fields(file), {path}, {});
-  return model_of(file, std::nullopt, path.string());
+  std::vector<std::string> not_told;
+  return load_model(project() / "models" / (name + ".yaml"), not_told);
 }
 
 KnownScene known_scene(std::string const& name) {

@@ -16,7 +16,7 @@ namespace credo::test {
 
 /// scenes/NAME.yaml.
 Scene project_scene(std::string const& name);
-/// models/NAME.yaml, a primitive.
+/// models/NAME.yaml.
 ObjectModel project_model(std::string const& name);
 
 /// A scene, and what the robot was told of it.

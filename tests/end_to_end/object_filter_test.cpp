@@ -131,7 +131,7 @@ TEST(ObjectFilter, ANudgedBoxIsFoundAgain) {
   KnownScene known = small_box_on_table();
   known.scene.camera.frames_per_s = 30;
   known.scene.camera.path = {{0, {0, 0, 1.4}, {2, 0, 0.6}}, {20, {0, 0, 1.4}, {2, 0, 0.6}}};
-  known.scene.events = {{10.0, "box", SceneChange::kMoved, {2.0, 0.14, 0.72}, {}}};
+  known.scene.events = {{10.0, "box", SceneChange::kMoved, {}, {2.0, 0.14, 0.72}, {}}};
   std::vector<BeliefPtr> const beliefs = run_scene(known, {});
   ASSERT_EQ(beliefs.size(), 601U);
   auto const off_m = [&](std::size_t frame) {

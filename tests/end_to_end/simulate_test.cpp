@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -61,6 +62,29 @@ TEST_F(Simulate, WritesWhatIsTrue) {
   Grid<std::uint16_t> const labels = read_png16(folder_ / "data/truth/000002.png");
   std::set<int> const codes(labels.begin(), labels.end());
   EXPECT_EQ(codes, (std::set<int>{0, 1000, 2000, 3000, 4000}));
+}
+
+TEST_F(Simulate, WhatWalksIsTrueInEachFrame) {
+  Ended const ended =
+      credo({"simulate", "corridor-loop", "--frames", "3", "--out", (folder_ / "walk").string()});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  std::vector<std::string> const lines = read_lines(folder_ / "walk/truth.jsonl");
+  ASSERT_EQ(lines.size(), 3U);
+  std::vector<double> x;
+  json person;
+  for (std::string const& line : lines) {
+    json const stuff = json::parse(line)["stuff"];
+    person = *std::find_if(stuff.begin(), stuff.end(),
+                           [](json const& thing) { return thing["id"] == "first person"; });
+    x.push_back(person["position"][0]);
+  }
+  EXPECT_LT(x[1], x[0]);
+  EXPECT_NEAR(x[1] - x[2], x[0] - x[1], 1e-9);
+  EXPECT_EQ(json::parse(lines[1])["events"],
+            json::parse(R"([{"what": "moved", "id": "first person"}])"));
+  EXPECT_TRUE(json::parse(lines[2])["events"].empty());
+  Grid<std::uint16_t> const labels = read_png16(folder_ / "walk/truth/000002.png");
+  EXPECT_GT(std::count(labels.begin(), labels.end(), person["label"].get<int>()), 100);
 }
 
 TEST_F(Simulate, TwoOfTheSameSeedAreTheSameAndOthersAreNot) {

@@ -122,5 +122,22 @@ TEST_F(ThesisBelief, Scene4BelievesTheBottleAndForgetsWhatTheTableLeftOver) {
   EXPECT_EQ(probability_near(beliefs[4], 1.6, 0.5, 0.4, 0.1), 0.0);
 }
 
+// "As the robot moves to the right side of the table, it is able to see a cabinet on the left side
+// of the table. It interprets this as a wall when enough of it is visible, as shown in the last
+// belief state (e)."
+TEST_F(ThesisBelief, Scene4TakesTheCabinetForAWallInTheLastLook) {
+  std::vector<json> const beliefs = beliefs_of("thesis-4.4.4", "thesis-table-and-box");
+  ASSERT_EQ(beliefs.size(), 5U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_TRUE(beliefs[i]["walls"].empty()) << i;
+  }
+  json const& walls = beliefs[4]["walls"];
+  ASSERT_EQ(walls.size(), 1U);
+  EXPECT_NEAR(walls[0]["normal"][1].get<double>(), -1.0, 0.01) << "towards the table";
+  for (json const& end : walls[0]["segment"]) {
+    EXPECT_NEAR(end[1].get<double>(), 1.1, 0.03) << "the cabinet's front";
+  }
+}
+
 }  // namespace
 }  // namespace credo::test

@@ -68,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadUsage{"NoScene",
                  {"run", "--source", "sim:nowhere"},
                  "sim:nowhere: no such scene or file; scenes are bottle-moves, box-on-table, "
-                 "cluttered-table, first-light, pen-on-table, table-before-wall, thesis-3.4.1, "
+                 "cluttered-table, corridor-loop, first-light, pen-on-table, room-of-200, "
+                 "swap-and-occlude, table-before-wall, thesis-3.4.1, "
                  "thesis-3.4.2, thesis-3.4.3, thesis-3.4.4, thesis-4.4.1, thesis-4.4.2, "
                  "thesis-4.4.3, thesis-4.4.4, wall-and-floor"},
         BadUsage{"PosesOfASimulation", sim_with({"--set", "pose.source=file"}),

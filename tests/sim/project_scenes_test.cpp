@@ -1,25 +1,25 @@
 // The scenes of known objects show what they are for.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <variant>
 
-#include "config/yaml_config.hpp"
 #include "sim/camera_path.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/scene.hpp"
 #include "sim/scene_time.hpp"
 #include "sim/sim_source.hpp"
 #include "sim/visibility.hpp"
+#include "tools/scene_file.hpp"
 
 namespace credo::test {
 namespace {
 
 Scene project_scene(std::string const& name) {
-  Scene scene;
-  scene.name = name;
-  load_config(fields(scene), {find_scene(name)}, {});
+  Scene scene = load_scene(name);
   check_scene(scene);
   return scene;
 }
@@ -34,13 +34,13 @@ std::size_t position_of(Scene const& scene, std::string const& name) {
 double seen(Scene const& scene, std::int64_t frame, std::string const& name, bool alone = false) {
   double const time_s = scene_time_s(scene, FrameIndex{frame});
   std::size_t const position = position_of(scene, name);
-  PresentThings things = things_at(scene, time_s);
-  for (std::size_t i = 0; alone && i < things.size(); ++i) {
-    if (i != position) {
-      things[i].reset();
-    }
+  Scene shown = scene;
+  if (alone) {
+    shown.things = {things_at(scene, time_s)[position].value()};
+    shown.events.clear();
   }
-  return visible_fraction(scene.camera, things, position, camera_pose(scene.camera.path, time_s));
+  return visible_fraction(RayCaster(shown, time_s), alone ? 0 : position,
+                          camera_pose(scene.camera.path, time_s));
 }
 
 std::size_t frame_count(Scene const& scene) {
@@ -68,6 +68,69 @@ TEST(ProjectScenes, TheBottleMovesInThirdFrameAndIsNeverHidden) {
     ASSERT_TRUE(now.has_value());
     EXPECT_EQ(now->position_m[1], i < 2 ? 0.0 : -0.4);
   }
+}
+
+TEST(ProjectScenes, ThePersonHidesTheTableAndNothingIsTakenAway) {
+  Scene const scene = project_scene("swap-and-occlude");
+  ASSERT_EQ(frame_count(scene), 100U);
+  for (char const* const name : {"bottle", "mug", "box"}) {
+    EXPECT_EQ(seen(scene, 10, name), 1.0) << name;
+    EXPECT_EQ(seen(scene, 95, name), 1.0) << name;
+    int hidden = 0;
+    for (std::int64_t i = 50; i < 80; ++i) {
+      hidden += seen(scene, i, name) == 0.0 ? 1 : 0;
+    }
+    EXPECT_GE(hidden, 2) << name;
+  }
+  EXPECT_THAT(things_at(scene, 2.0)[position_of(scene, "box")]->position_m,
+              testing::ElementsAre(1.85, -0.3, 0.72));
+}
+
+TEST(ProjectScenes, TheCorridorEndsWhereItBeganAndPeopleCrossIt) {
+  Scene const scene = project_scene("corridor-loop");
+  ASSERT_EQ(frame_count(scene), 267U);
+  auto const pose = [&](std::int64_t frame) {
+    return camera_pose(scene.camera.path, scene_time_s(scene, FrameIndex{frame}));
+  };
+  EXPECT_LT((pose(0).translation() - pose(266).translation()).norm(), 0.01);
+  EXPECT_GT(pose(0).rotation().dot(pose(266).rotation()), 0.999);
+  EXPECT_GT((pose(0).translation() - pose(133).translation()).norm(), 5.0);
+  struct Meeting {
+    char const* person;
+    std::int64_t frame;
+  };
+  for (Meeting const& meeting :
+       {Meeting{"first person", 20}, Meeting{"second person", 85}, Meeting{"third person", 150}}) {
+    EXPECT_GT(seen(scene, meeting.frame, meeting.person), 0.5) << meeting.person;
+  }
+  for (char const* const name : {"table", "box", "mug", "bottle"}) {
+    EXPECT_GT(seen(scene, 140, name), 0.5) << name;
+    EXPECT_EQ(seen(scene, 10, name), 0.0) << name;
+  }
+  EXPECT_GT(seen(scene, 60, "second box"), 0.5);
+}
+
+TEST(ProjectScenes, TheRoomHasTwoHundredThingsInSight) {
+  Scene const scene = project_scene("room-of-200");
+  EXPECT_EQ(frame_count(scene), 80U);
+  int things = 0;
+  std::set<std::size_t> in_sight;
+  for (std::int64_t const frame : {5, 40, 75}) {
+    double const time_s = scene_time_s(scene, FrameIndex{frame});
+    RayCaster const world(scene, time_s);
+    Se3 const T_world_camera = camera_pose(scene.camera.path, time_s);
+    things = 0;
+    for (std::size_t i = 0; i < scene.things.size(); ++i) {
+      if (scene.things[i].name.starts_with("thing ")) {
+        ++things;
+        if (visible_fraction(world, i, T_world_camera) > 0.3) {
+          in_sight.insert(i);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(things, 200);
+  EXPECT_GT(in_sight.size(), 150U);
 }
 
 TEST(ProjectScenes, SharesAgreeWithThePicture) {

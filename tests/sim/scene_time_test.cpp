@@ -25,11 +25,11 @@ Scene eventful_scene() {
   scene.things[1].rpy_deg = {0, 0, 10};
   scene.camera.frames_per_s = 10.0;
   scene.camera.path = {{2, {0, 0, 1}, {1, 0, 1}}, {3, {0, 0.1, 1}, {1, 0.1, 1}}};
-  scene.events = {{2.25, "cup", SceneChange::kAppeared, {}, {}},
-                  {2.4, "cup", SceneChange::kMoved, {2, 0, 0.9}, {}},
-                  {2.4, "block", SceneChange::kMoved, {3, 0, 0.9}, {0, 0, 45}},
-                  {2.6, "cup", SceneChange::kRemoved, {}, {}},
-                  {2.8, "cup", SceneChange::kAppeared, {2, 0.3, 0.9}, {0, 0, 20}}};
+  scene.events = {{2.25, "cup", SceneChange::kAppeared, {}, {}, {}},
+                  {2.4, "cup", SceneChange::kMoved, {}, {2, 0, 0.9}, {}},
+                  {2.4, "block", SceneChange::kMoved, {}, {3, 0, 0.9}, {0, 0, 45}},
+                  {2.6, "cup", SceneChange::kRemoved, {}, {}, {}},
+                  {2.8, "cup", SceneChange::kAppeared, {}, {2, 0.3, 0.9}, {0, 0, 20}}};
   return scene;
 }
 
@@ -48,7 +48,7 @@ TEST(SceneTime, AnEventHoldsFromTheFirstFrameAtOrAfterItsTime) {
   }
   EXPECT_THAT(counts, ElementsAre(0, 0, 0, 1, 3, 3, 4, 4, 5, 5, 5));
   scene.camera.path[0].time_s = 0.1;
-  scene.events = {{0.8, "cup", SceneChange::kRemoved, {}, {}}};
+  scene.events = {{0.8, "cup", SceneChange::kRemoved, {}, {}, {}}};
   ASSERT_LT(scene_time_s(scene, FrameIndex{7}), 0.8) << "which rounding makes of 0.1 + 0.7";
   EXPECT_EQ(event_count_at(scene, scene_time_s(scene, FrameIndex{7})), 1U);
   EXPECT_EQ(event_count_at(scene, scene_time_s(scene, FrameIndex{6})), 0U);
@@ -104,11 +104,8 @@ Scene frozen(Scene scene, double time_s) {
   return scene;
 }
 
-TEST(SceneTime, TheSourceShowsEachFrameWithTheThingsAsTheyStandThen) {
-  Scene const scene = eventful_scene();
+void expect_frames_of_the_moment(Scene const& scene) {
   SimSource source(scene, {});
-  std::vector<std::size_t> differ;
-  FramePtr last;
   for (int i = 0; i <= 10; ++i) {
     FramePtr const frame = std::get<FramePtr>(source.next());
     RenderedView const expected =
@@ -124,9 +121,47 @@ TEST(SceneTime, TheSourceShowsEachFrameWithTheThingsAsTheyStandThen) {
   EXPECT_TRUE(std::holds_alternative<EndOfSource>(source.next()));
 }
 
+TEST(SceneTime, TheSourceShowsEachFrameWithTheThingsAsTheyStandThen) {
+  expect_frames_of_the_moment(eventful_scene());
+}
+
+TEST(SceneTime, TheSourceShowsWhatWalksWhereItIsInEachFrame) {
+  Scene scene = eventful_scene();
+  scene.events.erase(scene.events.begin() + 2);
+  scene.things[0].position_m = {0, 0, 0};
+  scene.things[0].path = {{2.05, {3, 0.5, 0.9}, 0}, {2.45, {2.5, -0.5, 0.9}, 45}};
+  expect_frames_of_the_moment(scene);
+}
+
+TEST(SceneTime, TheWorldChangesByEventsAndByMotion) {
+  Scene scene = eventful_scene();
+  EXPECT_FALSE(world_changes(scene, 2.0, 2.2));
+  EXPECT_TRUE(world_changes(scene, 2.2, 2.3));
+  EXPECT_TRUE(world_changes(scene, 2.3, 2.2)) << "back too";
+  scene.events.clear();
+  scene.things[0].position_m = {0, 0, 0};
+  scene.things[0].path = {{2.1, {3, 0.5, 0.9}, 0}, {2.2, {3, 0.5, 0.9}, 45}};
+  EXPECT_FALSE(world_changes(scene, 2.0, 2.1));
+  EXPECT_TRUE(world_changes(scene, 2.1, 2.15));
+  EXPECT_TRUE(world_changes(scene, 2.15, 2.2));
+  EXPECT_FALSE(world_changes(scene, 2.2, 9.0));
+}
+
+TEST(SceneTime, WhatIsAwayIsKnownWhereItStoodOrWill) {
+  Scene scene = eventful_scene();
+  EXPECT_THAT(last_known(scene, 1, 2.0).position_m, ElementsAre(2, -0.3, 0.9)) << "will";
+  EXPECT_THAT(last_known(scene, 1, 2.45).position_m, ElementsAre(2, 0, 0.9)) << "is";
+  EXPECT_THAT(last_known(scene, 1, 2.7).position_m, ElementsAre(2, 0, 0.9)) << "stood";
+  scene.events = {{2.1, "cup", SceneChange::kSwapped, "block", {}, {}},
+                  {2.2, "cup", SceneChange::kRemoved, {}, {}, {}},
+                  {2.3, "block", SceneChange::kRemoved, {}, {}, {}}};
+  EXPECT_THAT(last_known(scene, 1, 2.5).position_m, ElementsAre(3, 0.5, 0.9));
+  EXPECT_THAT(last_known(scene, 0, 2.5).position_m, ElementsAre(2, -0.3, 0.9));
+}
+
 TEST(SceneTime, ARenderedThingKeepsItsNumberWhenAnotherIsAbsent) {
   Scene scene = eventful_scene();
-  scene.events = {{1, "block", SceneChange::kRemoved, {}, {}}};
+  scene.events = {{1, "block", SceneChange::kRemoved, {}, {}, {}}};
   RenderedView const view = RayCaster(scene, 1.0).render(Se3{});
   for (double const time_s : {0.0, 1.0}) {
     RenderedView const seen =

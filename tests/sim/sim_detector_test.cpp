@@ -27,7 +27,7 @@ Scene cupboard() {
   scene.things[0].rpy_deg = {0, 0, 30};
   scene.camera.frames_per_s = 10;
   scene.camera.path = {{0, {0, 0, 1}, {1, 0, 1}}, {1000, {0, 0, 1}, {1, 0, 1.0001}}};
-  scene.events = {{10.0, "can_b", SceneChange::kRemoved, {}, {}}};
+  scene.events = {{10.0, "can_b", SceneChange::kRemoved, {}, {}, {}}};
   return scene;
 }
 

@@ -32,7 +32,7 @@ Scene room() {
 
 SceneEvent event(double time_s, std::string thing, SceneChange what,
                  std::vector<double> position_m = {}) {
-  return {time_s, std::move(thing), what, std::move(position_m), {}};
+  return {time_s, std::move(thing), what, {}, std::move(position_m), {}};
 }
 
 TEST(Truth, LabelsCountWithinTheirKinds) {
@@ -86,6 +86,76 @@ TEST(Truth, EventsAreToldInTheirFrameAndPosesFollow) {
     EXPECT_EQ(post.visible_fraction > 0, post.present) << i;
   }
   EXPECT_THAT(told, ElementsAre("3 moved ball", "5 removed post", "7 appeared post"));
+}
+
+/// "3 moved ball" for each event of the first frames.
+std::vector<std::string> events_of(Scene const& scene, std::int64_t frames) {
+  std::vector<std::string> told;
+  for (std::int64_t i = 0; i < frames; ++i) {
+    for (TrueEvent const& one : truth_of(scene, FrameIndex{i}).events) {
+      told.push_back(std::to_string(i) + " " + one.what + " " + one.id);
+    }
+  }
+  return told;
+}
+
+TEST(Truth, ASwapIsTwoThingsMoved) {
+  Scene scene = room();
+  scene.things[3].rpy_deg = {0, 0, 30};
+  scene.events = {{0.35, "ball", SceneChange::kSwapped, "box_1", {}, {}}};
+  EXPECT_THAT(events_of(scene, 10), ElementsAre("4 moved ball", "4 moved box_1"));
+  for (std::int64_t const i : {3, 4, 9}) {
+    FrameTruth const truth = truth_of(scene, FrameIndex{i});
+    EXPECT_DOUBLE_EQ(truth.stuff[0].pose.translation().y(), i < 4 ? 0.5 : -0.5) << i;
+    EXPECT_DOUBLE_EQ(truth.objects[0].pose.translation().y(), i < 4 ? -0.5 : 0.5) << i;
+    EXPECT_TRUE(truth.objects[0].pose.rotation().isApprox(rotation_of_rpy_deg({0, 0, 30})));
+  }
+}
+
+/// The ball walks from 0.2 s to 0.8 s, with a rest from 0.4 s to 0.6 s.
+Scene walking_room() {
+  Scene scene = room();
+  scene.things[1].position_m = {0, 0, 0};
+  scene.things[1].rpy_deg = {0, 0, 10};
+  scene.things[1].path = {{0.2, {2, 0.5, 0}, 0},
+                          {0.4, {2, 0.3, 0}, 0},
+                          {0.6, {2, 0.3, 0}, 0},
+                          {0.8, {2, 0.1, 0.2}, 90}};
+  return scene;
+}
+
+TEST(Truth, WhatWalksIsWhereItsPathHasItInEachFrame) {
+  Scene const scene = walking_room();
+  std::vector<double> const y = {0.5, 0.5, 0.5, 0.4, 0.3, 0.3, 0.3, 0.2, 0.1, 0.1};
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    TrueThing const ball = truth_of(scene, FrameIndex{static_cast<std::int64_t>(i)}).stuff[0];
+    EXPECT_NEAR(ball.pose.translation().y(), y[i], 1e-12) << i;
+    EXPECT_NEAR(ball.pose.translation().z(), i < 7 ? 0.0 : i == 7 ? 0.1 : 0.2, 1e-12) << i;
+    double const yaw_deg = 10 + (i < 7 ? 0 : i == 7 ? 45 : 90);
+    EXPECT_TRUE(ball.pose.rotation().isApprox(rotation_of_rpy_deg({0, 0, yaw_deg}))) << i;
+  }
+}
+
+TEST(Truth, WhatWalksIsToldWhereItBeginsAndWhereItComesToRest) {
+  EXPECT_THAT(events_of(walking_room(), 15),
+              ElementsAre("3 moved ball", "4 moved ball", "7 moved ball", "8 moved ball"));
+  Scene away = walking_room();
+  away.events = {event(0.35, "ball", SceneChange::kRemoved),
+                 event(0.55, "ball", SceneChange::kAppeared)};
+  EXPECT_THAT(events_of(away, 15), ElementsAre("3 moved ball", "4 removed ball", "6 appeared ball",
+                                               "7 moved ball", "8 moved ball"));
+  Scene early = walking_room();
+  early.camera.path[0].time_s = 0.3;
+  EXPECT_THAT(events_of(early, 2), ElementsAre("1 moved ball")) << "in motion from the start";
+}
+
+TEST(Truth, RoundingIsNoMotion) {
+  Scene scene = walking_room();
+  scene.camera.path[0].time_s = 0.1;
+  scene.camera.path[1].time_s = 1.1;
+  scene.things[1].path = {{0.4, {2, 0.5, 0}, 0}, {0.8, {2, 0.1, 0}, 0}};
+  ASSERT_LT(0.1 + 7 / 10.0, 0.8) << "a frame at the rest's time seems to come before it";
+  EXPECT_THAT(events_of(scene, 10), ElementsAre("4 moved ball", "7 moved ball"));
 }
 
 TEST(Truth, LabelImageIsTheViewsWhereDepthWasMeasured) {

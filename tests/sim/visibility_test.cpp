@@ -17,8 +17,7 @@ SceneThing plate(std::string name, double width_m, double height_m, double x, do
 }
 
 double fraction_of_first(Scene const& scene) {
-  return visible_fraction(scene.camera, things_at(scene, 0.0), 0,
-                          camera_pose(scene.camera.path, 0.0));
+  return visible_fraction(RayCaster(scene), 0, camera_pose(scene.camera.path, 0.0));
 }
 
 double fraction_of_first(std::vector<SceneThing> things) {
@@ -70,9 +69,9 @@ TEST(Visibility, BehindAnotherIsNone) {
 
 TEST(Visibility, AbsentIsNoneAndHidesNothing) {
   Scene scene = small_scene({kPlate, plate("wall", 1, 1, 2, 0, 1)});
-  scene.events = {{0, "wall", SceneChange::kRemoved, {}, {}}};
+  scene.events = {{0, "wall", SceneChange::kRemoved, {}, {}, {}}};
   EXPECT_EQ(fraction_of_first(scene), 1.0);
-  scene.events = {{0, "plate", SceneChange::kRemoved, {}, {}}};
+  scene.events = {{0, "plate", SceneChange::kRemoved, {}, {}, {}}};
   EXPECT_EQ(fraction_of_first(scene), 0.0);
 }
 

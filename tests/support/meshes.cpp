@@ -94,4 +94,16 @@ double literal_mesh_distance(TriangleMesh const& mesh, Vector3d const& point) {
   return inside(mesh, point) ? -least : least;
 }
 
+double literal_mesh_hit(TriangleMesh const& mesh, Vector3d const& origin,
+                        Vector3d const& direction) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    double along = 0;
+    if (crosses(corners_of(mesh, t), origin, direction, along) && along >= 0) {
+      least = std::min(least, along);
+    }
+  }
+  return least;
+}
+
 }  // namespace credo::test

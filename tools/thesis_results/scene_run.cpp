@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "../known_objects.hpp"
-#include "../source_uri.hpp"
+#include "../scene_file.hpp"
 #include "config/yaml_config.hpp"
 #include "geometry/outline.hpp"
 #include "graph/pipeline_config.hpp"

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/object_model.hpp"
+
+namespace credo {
+
+/// The file of a model that another file names: by its path from that file's folder, or by its
+/// name, NAME.yaml beside that file, in a folder models/ there, or in models/ of this project.
+/// Throws InputError that begins with `who` and lists the known names.
+std::filesystem::path find_model(std::string const& model, std::filesystem::path const& asker,
+                                 std::string const& who);
+
+/// The file of the model of that name, looked for as a file in `folder` would have it looked for;
+/// empty where there is none.
+std::filesystem::path model_called(std::string const& name, std::filesystem::path const& folder);
+
+/// A model with its mesh, named like its file where it names itself not. What people should know of
+/// it is added to `warnings`, a line each. Throws InputError for what is wrong with either file.
+ObjectModel load_model(std::filesystem::path const& path, std::vector<std::string>& warnings);
+
+}  // namespace credo
