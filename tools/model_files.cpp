@@ -85,4 +85,23 @@ ObjectModel load_model(fs::path const& path, std::vector<std::string>& warnings)
   return model_of(file, std::move(mesh), path.string());
 }
 
+void copy_model(fs::path const& file, fs::path const& folder, std::string const& name) {
+  ModelFile model;
+  load_config(fields(model), {file}, {});
+  fs::path const mesh = fs::path(model.mesh).lexically_normal();
+  if (mesh.is_absolute() || (!mesh.empty() && *mesh.begin() == "..")) {
+    return;
+  }
+  constexpr auto kReplace = fs::copy_options::overwrite_existing;
+  try {
+    fs::create_directories((folder / mesh).parent_path());
+    fs::copy_file(file, folder / (name + ".yaml"), kReplace);
+    if (!mesh.empty()) {
+      fs::copy_file(file.parent_path() / mesh, folder / mesh, kReplace);
+    }
+  } catch (fs::filesystem_error const& error) {
+    throw InputError(folder.string() + ": cannot be written: " + error.code().message());
+  }
+}
+
 }  // namespace credo

@@ -22,4 +22,10 @@ std::filesystem::path model_called(std::string const& name, std::filesystem::pat
 /// it is added to `warnings`, a line each. Throws InputError for what is wrong with either file.
 ObjectModel load_model(std::filesystem::path const& path, std::vector<std::string>& warnings);
 
+/// Copies a model's file, as NAME.yaml, and the mesh that it names, into a folder, which is made if
+/// need be. A mesh that is not in the file's own folder or below would not be found there: then
+/// nothing is copied. Throws InputError where the folder cannot be written.
+void copy_model(std::filesystem::path const& file, std::filesystem::path const& folder,
+                std::string const& name);
+
 }  // namespace credo

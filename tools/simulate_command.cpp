@@ -15,10 +15,12 @@
 #include "config_arguments.hpp"
 #include "io/dataset_writer.hpp"
 #include "io/truth_json.hpp"
+#include "model_files.hpp"
 #include "scene_file.hpp"
 #include "sim/scene_caster.hpp"
 #include "sim/scene_time.hpp"
 #include "sim/sim_source.hpp"
+#include "sim/thing.hpp"
 #include "sim/truth.hpp"
 #include "stop_on_signal.hpp"
 
@@ -31,8 +33,8 @@ constexpr char const* kExamples = R"(Examples:
   credo run --source dataset:data/room --out out/room
 
 DIR receives a TUM RGB-D dataset (depth/, rgb/, depth.txt, rgb.txt, groundtruth.txt,
-camera-intrinsics.txt; depth to 0.2 mm), and what is true: truth.jsonl, a line a frame, and
-truth/NNNNNN.png, the labels of its pixels. A scene is a name from scenes/ or a file like those; how
+camera-intrinsics.txt; depth to 0.2 mm), and what is true: truth.jsonl, a line a frame,
+truth/NNNNNN.png, the labels of its pixels, and models/ of its objects. A scene is a name from scenes/ or a file like those; how
 to write one: docs/scenes.md.)";
 
 struct SimulateCommand {
@@ -48,6 +50,22 @@ void show_progress(std::int64_t done, std::int64_t all) {
   }
 }
 
+/// The models of the scene's objects, so that whoever scores needs nothing but the folder.
+void copy_models(Scene const& scene, std::filesystem::path const& folder) {
+  std::filesystem::path const file = find_scene(scene.name);
+  for (SceneThing const& thing : scene.things) {
+    if (thing.kind != SceneKind::kObject) {
+      continue;
+    }
+    std::filesystem::path const model = thing.model.empty()
+                                            ? model_called(type_of(thing), file.parent_path())
+                                            : find_model(thing.model, file, file.string());
+    if (!model.empty()) {
+      copy_model(model, folder / "models", type_of(thing));
+    }
+  }
+}
+
 int simulate(SimulateCommand const& command) {
   StopOnSignal const signals;
   PipelineConfig const config = resolved_config(command.config);
@@ -56,6 +74,7 @@ int simulate(SimulateCommand const& command) {
   auto const all = static_cast<std::int64_t>(source.frame_count());
   std::int64_t const frames = std::min(all, command.frames.value_or(all));
   DatasetWriter writer(command.out);
+  copy_models(scene, command.out);
   SceneCaster world(scene);  // a frame does not tell what it shows: rendered anew
   std::int64_t done = 0;
   while (done < frames && !signals.token().stop_requested()) {

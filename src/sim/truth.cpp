@@ -152,8 +152,13 @@ LabelMap true_labels(Scene const& scene, RenderedView const& view, Grid<float> c
   std::vector<LabelCode> const labels = labels_of_things(scene);
   LabelMap image(view.thing.width(), view.thing.height(), kNoDepth);
   for (std::size_t i = 0; i < image.size(); ++i) {
-    if (measured_m[i] > 0.0F && view.thing[i] >= 0) {
-      image[i] = labels[static_cast<std::size_t>(view.thing[i])];
+    if (!(measured_m[i] > 0.0F) || view.thing[i] < 0) {
+      continue;
+    }
+    // Glass returns nothing: what is measured there comes from beside it.
+    auto const thing = static_cast<std::size_t>(view.thing[i]);
+    if (scene.things[thing].surface != SceneSurface::kGlass) {
+      image[i] = labels[thing];
     }
   }
   return image;

@@ -22,7 +22,7 @@ FrameTruth truth_of(Scene const& scene, FrameIndex index);
 std::vector<LabelCode> labels_of_things(Scene const& scene);
 
 /// The true label image of a view: of the thing in each pixel, 0 where `measured_m`, of the same
-/// size, has no depth.
+/// size, has no depth, and on glass.
 LabelMap true_labels(Scene const& scene, RenderedView const& view, Grid<float> const& measured_m);
 
 }  // namespace credo

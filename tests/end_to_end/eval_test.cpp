@@ -215,6 +215,49 @@ TEST_F(Eval, AFolderWithoutTruthIsTold) {
   EXPECT_THAT(refusal(), HasSubstr("no such folder of a truth"));
 }
 
+/// A scene with a model that the project does not have, beside it.
+std::string scene_with_a_pyramid(TempFolder const& folder) {
+  write_text(folder / "pyramid.ply",
+             "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+             "property float z\nelement face 6\nproperty list uchar int vertex_indices\n"
+             "end_header\n-0.2 -0.2 0\n0.2 -0.2 0\n0.2 0.2 0\n-0.2 0.2 0\n0 0 0.5\n"
+             "3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n3 0 2 1\n3 0 3 2\n");
+  write_text(folder / "pyramid.yaml",
+             "name: pyramid\nmesh: pyramid.ply\nsymmetry: [{rpy_deg: [0, 0, 90]}, "
+             "{rpy_deg: [0, 0, 180]}, {rpy_deg: [0, 0, 270]}]\n");
+  write_text(folder / "scene.yaml",
+             "things:\n"
+             "  - {name: floor, kind: floor, shape: box, size_m: [9, 9, 0.1], position_m: [0, 0, "
+             "-0.1]}\n"
+             "  - {name: one, kind: object, model: pyramid, position_m: [2, 0, 0]}\n"
+             "camera:\n  path:\n"
+             "    - {time_s: 0, position_m: [0, 0, 1.2], look_at_m: [2, 0, 0]}\n");
+  write_text(folder / "prior.yaml",
+             "objects:\n  - {id: p, model: pyramid, position: [2.03, 0, 0], rpy_deg: [0, 0, 90], "
+             "sigma_position_m: 0.05, sigma_rotation_rad: 0.05}\n");
+  return (folder / "scene.yaml").string();
+}
+
+TEST(EvalModels, ComeAlongWithTheTruth) {
+  TempFolder const folder;
+  std::string const scene = scene_with_a_pyramid(folder);
+  Ended const simulated = credo({"simulate", scene, "--out", (folder / "truth").string()});
+  ASSERT_EQ(simulated.code, 0) << simulated.err;
+  Ended const run =
+      credo({"run", "--source", "sim:" + scene, "--prior", (folder / "prior.yaml").string(),
+             "--no-dds", "--dump", "labels", "--out", (folder / "run").string()});
+  ASSERT_EQ(run.code, 0) << run.err;
+  fs::remove(folder / "pyramid.yaml");
+  fs::remove(folder / "pyramid.ply");
+  Ended const ended =
+      credo({"eval", (folder / "run").string(), "--truth", (folder / "truth").string(), "--json"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  json const s = json::parse(ended.out);
+  EXPECT_NEAR(s["objects"]["translation_m"], 0.03, 1e-9) << "nobody looked: as it was told";
+  EXPECT_NEAR(s["objects"]["rotation_deg"], 0.0, 1e-6) << "a quarter turn is no error of it";
+  EXPECT_EQ(s["objects"]["adds_recall"], 1.0);
+}
+
 TEST(EvalRecordings, LabelFieldsOfTheTableTopsAreATruth) {
   CREDO_REQUIRE_RECORDING("osd");
   fs::path const osd = recordings() / "osd";

@@ -172,6 +172,20 @@ TEST(Truth, LabelImageIsTheViewsWhereDepthWasMeasured) {
   }
 }
 
+TEST(Truth, GlassHasNoLabelAlsoWhereSomethingIsMeasured) {
+  Scene scene = room();
+  RenderedView const view = RayCaster(scene).render(truth_of(scene, FrameIndex{0}).T_world_camera);
+  LabelMap const before = true_labels(scene, view, view.depth_m);
+  scene.things[1].surface = SceneSurface::kGlass;
+  LabelMap const after = true_labels(scene, view, view.depth_m);
+  std::size_t of_glass = 0;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    of_glass += view.thing[i] == 1 ? 1 : 0;
+    EXPECT_EQ(after[i], view.thing[i] == 1 ? kNoDepth : before[i]);
+  }
+  EXPECT_GT(of_glass, 100U);
+}
+
 TEST(Truth, MoreThingsThanLabelsAreRefused) {
   Scene scene = room();
   for (std::size_t i = 0; i < kMaxWalls; ++i) {
