@@ -147,26 +147,31 @@ void ChangeScorer::close(Change const& change, std::optional<std::int64_t> delay
   }
 }
 
-void ChangeScorer::judge_claims(ChangeFrame const& frame) {
+void ChangeScorer::judge_pieces(ChangeFrame const& frame) {
   auto const probability = probabilities(frame.belief);
+  auto const is_there = [&](std::uint32_t id) {
+    return frame.bodies.is_there(id, frame.truth, frame.told);
+  };
   for (auto const& [id, body] : believed_pieces_) {
     TrueThing const* const thing = body.label ? thing_with(*body.label, frame.truth) : nullptr;
     if (thing == nullptr || frame.told.told(thing->id) || is_believed(probability, id)) {
       continue;
     }
-    bool const there = frame.bodies.is_there(id, frame.truth, frame.told);
-    bool const has_another =
-        std::any_of(probability.begin(), probability.end(), [&](auto const& p) {
-          StuffBodies::Body const* const other = frame.bodies.body(p.first);
-          return p.second >= kBelieved && other != nullptr && other->label == body.label &&
-                 frame.bodies.is_there(p.first, frame.truth, frame.told);
-        });
+    bool const has_another = std::ranges::any_of(probability, [&](auto const& other) {
+      StuffBodies::Body const* const other_body = frame.bodies.body(other.first);
+      return other.second >= kBelieved && other_body != nullptr &&
+             other_body->label == thing->label && is_there(other.first);
+    });
+    bool const there = is_there(id);
     if (there && has_another) {
       continue;
     }
     ++claims_;
     right_claims_ += there ? 0 : 1;
   }
+}
+
+void ChangeScorer::judge_objects(ChangeFrame const& frame) {
   for (std::size_t i = 0; i < frame.belief.objects.size(); ++i) {
     ObjectSummary const& object = frame.belief.objects[i];
     auto const before = known_.find(object.id);
@@ -210,7 +215,8 @@ void ChangeScorer::add(ChangeFrame const& frame) {
       ++it;
     }
   }
-  judge_claims(frame);
+  judge_pieces(frame);
+  judge_objects(frame);
   remember(frame);
 }
 

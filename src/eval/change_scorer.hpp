@@ -73,7 +73,8 @@ private:
   [[nodiscard]] bool is_noticed(Change const& change, ChangeFrame const& frame) const;
   static void look(Change& change, ChangeFrame const& frame);
   void close(Change const& change, std::optional<std::int64_t> delay_frames);
-  void judge_claims(ChangeFrame const& frame);
+  void judge_pieces(ChangeFrame const& frame);
+  void judge_objects(ChangeFrame const& frame);
   void remember(ChangeFrame const& frame);
 
   std::map<LabelCode, Change> open_;

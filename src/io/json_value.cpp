@@ -101,7 +101,7 @@ std::string JsonValue::text() const {
 }
 
 Eigen::Vector3d JsonValue::position() const {
-  Eigen::Vector3d const position(numbers<3>().data());
+  Eigen::Vector3d position(numbers<3>().data());
   if (position.cwiseAbs().maxCoeff() > 1e4) {
     refuse("must be within 10000 m");
   }

@@ -25,8 +25,8 @@ struct ColoredCloud {
 /// without x y z.
 ColoredCloud read_pcd(std::filesystem::path const& path, CloudAxes axes, double max_depth_m);
 
-/// The whole numbers of a PCD file's field `label`, by pixel; none where it has no such field. Throws
-/// InputError for what read_pcd refuses, and for labels beyond 65535.
+/// The whole numbers of a PCD file's field `label`, by pixel; none where it has no such field.
+/// Throws InputError for what read_pcd refuses, and for labels beyond 65535.
 std::optional<LabelMap> read_pcd_labels(std::filesystem::path const& path);
 
 }  // namespace credo
