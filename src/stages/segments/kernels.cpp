@@ -117,7 +117,6 @@ void concavity_row_lanes(std::int16_t const* centre, std::array<std::ptrdiff_t, 
 
 /// 1 where the mask is set.
 HWY_INLINE void store_bytes(M16 mask, std::uint8_t* out) {
-  D16 const d;
   hn::Rebind<std::uint8_t, D16> const bytes;
   hn::StoreU(hn::DemoteTo(bytes, hn::IfThenElseZero(mask, constant(1))), bytes, out);
 }
@@ -164,6 +163,30 @@ void thicken_row_lanes(std::uint8_t const* centre, std::ptrdiff_t stride, std::u
   }
 }
 
+void worth_row_lanes(std::int16_t const* disparity, std::uint8_t const* thickness,
+                     std::size_t count, std::uint8_t* out) {
+  D16 const d;
+  hn::Rebind<std::uint8_t, D16> const bytes;
+  for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
+    auto const one = hn::IfThenElseZero(load(disparity + u) > hn::Zero(d), constant(1));
+    hn::StoreU(hn::DemoteTo(bytes, one) + hn::LoadU(bytes, thickness + u), bytes, out + u);
+  }
+}
+
+void front_row_lanes(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
+                     std::size_t count, std::uint8_t* out) {
+  D8 const d;
+  // a >= b where max(a, b) == a.
+  auto const bound = hn::Set(d, least);
+  for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
+    std::uint8_t const* const at = centre + u;
+    auto const beside = hn::Max(hn::LoadU(d, at - 1), hn::LoadU(d, at + 1));
+    auto const most = hn::Max(beside, hn::Max(hn::LoadU(d, at - stride), hn::LoadU(d, at + stride)));
+    auto const is_front = hn::And(hn::Max(most, bound) == most, hn::LoadU(d, at) == hn::Zero(d));
+    hn::StoreU(hn::IfThenElseZero(is_front, most), d, out + u);
+  }
+}
+
 }  // namespace credo::segments::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -175,6 +198,8 @@ HWY_EXPORT(smooth_row_lanes);
 HWY_EXPORT(concavity_row_lanes);
 HWY_EXPORT(crease_row_lanes);
 HWY_EXPORT(thicken_row_lanes);
+HWY_EXPORT(worth_row_lanes);
+HWY_EXPORT(front_row_lanes);
 
 void disparity_row(float const* depth_m, std::size_t count, float units_m, std::int16_t* out) {
   HWY_DYNAMIC_DISPATCH(disparity_row_lanes)(depth_m, count, units_m, out);
@@ -202,6 +227,16 @@ void crease_row(std::int16_t const* disparity, std::ptrdiff_t stride,
 void thicken_row(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t level,
                  std::size_t count, std::uint8_t* out) {
   HWY_DYNAMIC_DISPATCH(thicken_row_lanes)(centre, stride, level, count, out);
+}
+
+void worth_row(std::int16_t const* disparity, std::uint8_t const* thickness, std::size_t count,
+               std::uint8_t* out) {
+  HWY_DYNAMIC_DISPATCH(worth_row_lanes)(disparity, thickness, count, out);
+}
+
+void front_row(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
+               std::size_t count, std::uint8_t* out) {
+  HWY_DYNAMIC_DISPATCH(front_row_lanes)(centre, stride, least, count, out);
 }
 
 }  // namespace credo::segments

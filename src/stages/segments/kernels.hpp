@@ -44,4 +44,12 @@ void crease_row(std::int16_t const* disparity, std::ptrdiff_t stride,
 void thicken_row(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t level,
                  std::size_t count, std::uint8_t* out);
 
+/// 1 more than the thickness where valid, else 0.
+void worth_row(std::int16_t const* disparity, std::uint8_t const* thickness, std::size_t count,
+               std::uint8_t* out);
+
+/// Not 0 where the centre is 0 and one of its four neighbours `least` or more.
+void front_row(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
+               std::size_t count, std::uint8_t* out);
+
 }  // namespace credo::segments

@@ -96,14 +96,12 @@ public:
   RegionGraph graph() && {
     for (int v = 0; v < map_.height(); ++v) {
       std::int32_t const* const row = labels_.row(v);
-      for (int u = 0; u < map_.width(); ++u) {
-        count(row[u]);
-        if (u + 1 < map_.width() && row[u] != row[u + 1]) {
-          look(u, v, 1);
-        }
-        if (v + 1 < map_.height() && row[u] != row[u + labels_.stride()]) {
-          look(u, v, labels_.stride());
-        }
+      // Behind the last row and column there is no label, and so no border.
+      for (int u = 0; u < map_.width();) {
+        int const begin = u;
+        u = first_change(row, u);
+        count(row[begin], static_cast<std::uint32_t>(u - begin));
+        look_along(row, v, begin, u);
       }
     }
     std::ranges::sort(graph_.borders, {},
@@ -112,12 +110,34 @@ public:
   }
 
 private:
-  void count(std::int32_t label) {
+  /// The end of the run of one label that begins at u.
+  [[nodiscard]] int first_change(std::int32_t const* row, int u) const {
+    int end = u + 1;
+    while (end < map_.width() && row[end] == row[u]) {
+      ++end;
+    }
+    return end;
+  }
+
+  /// The borders of a run to what is below, and of its last pixel to what is beside.
+  void look_along(std::int32_t const* row, int v, int begin, int end) {
+    std::int32_t const* const below = row + labels_.stride();
+    for (int u = begin; u < end; ++u) {
+      if (u + 1 == end && row[u + 1] != row[u]) {
+        look(u, v, 1);
+      }
+      if (below[u] != row[u]) {
+        look(u, v, labels_.stride());
+      }
+    }
+  }
+
+  void count(std::int32_t label, std::uint32_t pixels) {
     auto const index = static_cast<std::size_t>(label);
     if (index >= graph_.sizes.size()) {
       graph_.sizes.resize(index + 1, 0);
     }
-    ++graph_.sizes[index];
+    graph_.sizes[index] += pixels;
   }
 
   Border& border_of(std::int32_t a, std::int32_t b) {
