@@ -1,0 +1,224 @@
+#include "stages/segments/labels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "stages/segments/kernels.hpp"
+
+namespace credo::segments {
+namespace {
+
+/// Of a PaddedGrid: offset from its pixel (0, 0).
+using Position = std::int32_t;
+
+/// What a pixel without a label is worth: 0 where there is no depth, or a label already; else one
+/// more than its thickness.
+constexpr std::uint8_t kValid = 1;
+constexpr std::uint8_t kThickest = 5;
+constexpr std::uint8_t kThinnest = 2;
+
+/// Pixels of one row, side by side, that may all be labelled.
+struct Run {
+  int v = 0;
+  int begin = 0;
+  int end = 0;
+  /// A run of the same part, never a later one; itself where there is none before.
+  std::int32_t parent = 0;
+};
+
+class Growth {
+public:
+  Growth(SurfaceMap const& map, Limits const& limits)
+      : map_(map),
+        limits_(limits),
+        labels_(map.width(), map.height()),
+        worth_(map.width(), map.height()),
+        candidates_(static_cast<std::size_t>(map.width()) + PartLabels::kMargin),
+        neighbours_({-1, 1, static_cast<Position>(-labels_.stride()),
+                     static_cast<Position>(labels_.stride())}) {
+    for (int v = 0; v < map.height(); ++v) {
+      std::fill_n(labels_.row(v), map.width(), 0);
+      worth_row(map.disparity.row(v), map.thickness.row(v), static_cast<std::size_t>(map.width()),
+                worth_.row(v));
+      worth_.end_row(v);
+    }
+  }
+
+  PartLabels parts() && {
+    begin_parts(kThickest, limits_.seed_px);
+    for (std::uint8_t least = kThickest - 1; least >= kThinnest; --least) {
+      grow(least);
+      begin_parts(least, limits_.part_px);
+    }
+    flood(true);
+    flood(false);
+    return std::move(labels_);
+  }
+
+private:
+  std::int32_t root_of(std::int32_t run) {
+    auto const at = [&](std::int32_t i) -> std::int32_t& {
+      return runs_[static_cast<std::size_t>(i)].parent;
+    };
+    while (at(run) != run) {
+      at(run) = at(at(run));
+      run = at(run);
+    }
+    return run;
+  }
+
+  /// The runs of a row, joined with those of the row before, which begin at `above`.
+  void add_runs(int v, std::uint8_t least, std::size_t above) {
+    std::uint8_t const* const worth = worth_.row(v);
+    int const width = map_.width();
+    std::size_t const row_begin = runs_.size();
+    for (int u = 0; u < width; ++u) {
+      if (worth[u] < least) {
+        continue;
+      }
+      Run run{v, u, u, static_cast<std::int32_t>(runs_.size())};
+      while (u < width && worth[u] >= least) {
+        ++u;
+      }
+      run.end = u;
+      runs_.push_back(run);
+      for (; above < row_begin && runs_[above].begin < run.end; ++above) {
+        if (runs_[above].end > run.begin) {
+          std::int32_t const a = root_of(static_cast<std::int32_t>(above));
+          std::int32_t const b = root_of(static_cast<std::int32_t>(runs_.size() - 1));
+          runs_[static_cast<std::size_t>(std::max(a, b))].parent = std::min(a, b);
+        }
+        if (runs_[above].end > run.end) {
+          break;  // the next run may touch it too
+        }
+      }
+    }
+  }
+
+  /// Connected pixels of that worth become a part of their own where they are so many.
+  void begin_parts(std::uint8_t least, std::uint32_t least_px) {
+    runs_.clear();
+    std::size_t above = 0;
+    for (int v = 0; v < map_.height(); ++v) {
+      std::size_t const begin = runs_.size();
+      if (has_any(v, least)) {
+        add_runs(v, least, above);
+      }
+      above = begin;
+    }
+    std::vector<std::uint32_t> size_px(runs_.size(), 0);
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      size_px[static_cast<std::size_t>(root_of(static_cast<std::int32_t>(i)))] +=
+          static_cast<std::uint32_t>(runs_[i].end - runs_[i].begin);
+    }
+    std::vector<std::int32_t> label_of(runs_.size(), 0);
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      auto const root = static_cast<std::size_t>(root_of(static_cast<std::int32_t>(i)));
+      if (size_px[root] < least_px) {
+        continue;
+      }
+      if (label_of[root] == 0) {
+        label_of[root] = next_++;
+      }
+      Run const& run = runs_[i];
+      std::fill(labels_.row(run.v) + run.begin, labels_.row(run.v) + run.end, label_of[root]);
+      std::fill(worth_.row(run.v) + run.begin, worth_.row(run.v) + run.end, std::uint8_t{0});
+    }
+  }
+
+  [[nodiscard]] bool has_any(int v, std::uint8_t least) const {
+    std::uint8_t const* const row = worth_.row(v);
+    std::uint8_t most = 0;
+    for (int u = 0; u < map_.width(); ++u) {
+      most = std::max(most, row[u]);
+    }
+    return most >= least;
+  }
+
+  /// Labelled pixels beside others of that worth without a label, in raster order.
+  template <typename Visit>
+  void for_each_front(std::uint8_t least, Visit const& visit) {
+    Position const stride = neighbours_[3];
+    for (int v = 0; v < map_.height(); ++v) {
+      std::int32_t const* const labels = labels_.row(v);
+      front_row(worth_.row(v), stride, least, static_cast<std::size_t>(map_.width()),
+                candidates_.data());
+      for (int u = 0; u < map_.width(); u += 8) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, candidates_.data() + u, sizeof eight);
+        for (int i = u; eight != 0 && i < std::min(u + 8, map_.width()); ++i) {
+          if (candidates_[static_cast<std::size_t>(i)] != 0 && labels[i] != 0) {
+            visit(v * stride + i);
+          }
+        }
+      }
+    }
+  }
+
+  void grow(std::uint8_t least) {
+    std::uint8_t* const worth = worth_.row(0);
+    std::int32_t* const labels = labels_.row(0);
+    queue_.clear();
+    for_each_front(least, [&](Position at) { queue_.push_back(at); });
+    for (std::size_t i = 0; i < queue_.size(); ++i) {
+      Position const at = queue_[i];
+      for (Position const step : neighbours_) {
+        if (worth[at + step] >= least) {
+          worth[at + step] = 0;
+          labels[at + step] = labels[at];
+          queue_.push_back(at + step);
+        }
+      }
+    }
+  }
+
+  void flood(bool along_surfaces) {
+    std::uint8_t* const worth = worth_.row(0);
+    std::int32_t* const labels = labels_.row(0);
+    std::int16_t const* const disparity = map_.disparity.row(0);
+    std::int16_t const* const concavity = map_.concavity.row(0);
+    std::array<std::vector<Position>, kBuckets> buckets;
+    for_each_front(kValid, [&](Position at) { buckets[0].push_back(at); });
+    for (std::size_t key = 0; key < kBuckets; ++key) {
+      for (std::size_t i = 0; i < buckets.at(key).size(); ++i) {
+        Position const at = buckets.at(key)[i];
+        for (Position const step : neighbours_) {
+          Position const next = at + step;
+          if (worth[next] == 0 ||
+              (along_surfaces && !linked(disparity[at], disparity[next], limits_.link))) {
+            continue;
+          }
+          worth[next] = 0;
+          labels[next] = labels[at];
+          auto const own = static_cast<std::size_t>(concavity[next] * 2 / kUnitsPerQuantum);
+          buckets.at(std::max(key, std::min(own, kBuckets - 1))).push_back(next);
+        }
+      }
+    }
+  }
+
+  static constexpr std::size_t kBuckets = 64;
+
+  SurfaceMap const& map_;
+  Limits const& limits_;
+  PartLabels labels_;
+  PaddedGrid<std::uint8_t> worth_;
+  std::vector<std::uint8_t> candidates_;
+  /// In the order in which fronts advance.
+  std::array<Position, 4> neighbours_;
+  std::int32_t next_ = 1;
+  std::vector<Run> runs_;
+  std::vector<Position> queue_;
+};
+
+}  // namespace
+
+PartLabels grow_parts(SurfaceMap const& map, Limits const& limits) {
+  return Growth(map, limits).parts();
+}
+
+}  // namespace credo::segments

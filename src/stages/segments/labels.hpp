@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+#include "stages/segments/limits.hpp"
+#include "stages/segments/padded_grid.hpp"
+#include "stages/segments/surface_map.hpp"
+
+namespace credo::segments {
+
+/// 0 where there is none yet.
+using PartLabels = PaddedGrid<std::int32_t>;
+
+/// Parts of the image without a crease or a jump inside, from the thickest to the thinnest: a leak
+/// through a gap in a crease is thin, and is closed before anything flows through it. Then what is
+/// left goes to what it touches, least concave first. Every pixel with depth that is joined to a
+/// part gets its label; labels count from 1.
+///
+/// Fronts advance together, a pixel at a time, in the order of the raster: left, right, up, down.
+[[nodiscard]] PartLabels grow_parts(SurfaceMap const& map, Limits const& limits);
+
+}  // namespace credo::segments

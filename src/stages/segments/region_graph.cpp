@@ -1,0 +1,221 @@
+#include "stages/segments/region_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+namespace credo::segments {
+namespace {
+
+/// Every so many pairs of a border are looked at closely.
+constexpr std::uint32_t kSampleEvery = 3;
+constexpr std::int64_t kLeastPoints = 20;
+
+/// Whole numbers, so that no order of adding matters.
+struct DiscSums {
+  std::int64_t n = 0;
+  std::int64_t u = 0;
+  std::int64_t v = 0;
+  std::int64_t d = 0;
+  std::int64_t uu = 0;
+  std::int64_t uv = 0;
+  std::int64_t vv = 0;
+  std::int64_t ud = 0;
+  std::int64_t vd = 0;
+  std::int64_t dd = 0;
+
+  void add(std::int64_t pu, std::int64_t pv, std::int64_t pd) {
+    ++n;
+    u += pu;
+    v += pv;
+    d += pd;
+    uu += pu * pu;
+    uv += pu * pv;
+    vv += pv * pv;
+    ud += pu * pd;
+    vd += pv * pd;
+    dd += pd * pd;
+  }
+};
+
+/// Least squares; a little is added to the points' spread, so that a thin strip has no steep plane.
+std::optional<DiscPlane> fitted(DiscSums const& sums) {
+  if (sums.n < kLeastPoints) {
+    return std::nullopt;
+  }
+  constexpr double kSpread_px2 = 0.3;
+  constexpr double kQuanta = 1.0 / kUnitsPerQuantum;
+  auto const n = static_cast<double>(sums.n);
+  auto const mean = [&](std::int64_t sum) { return static_cast<double>(sum) / n; };
+  DiscPlane plane;
+  plane.mean_u = mean(sums.u);
+  plane.mean_v = mean(sums.v);
+  plane.mean_quanta = mean(sums.d) * kQuanta;
+  double const uu = mean(sums.uu) - plane.mean_u * plane.mean_u + kSpread_px2;
+  double const vv = mean(sums.vv) - plane.mean_v * plane.mean_v + kSpread_px2;
+  double const uv = mean(sums.uv) - plane.mean_u * plane.mean_v;
+  double const ud = mean(sums.ud) * kQuanta - plane.mean_u * plane.mean_quanta;
+  double const vd = mean(sums.vd) * kQuanta - plane.mean_v * plane.mean_quanta;
+  double const dd = mean(sums.dd) * kQuanta * kQuanta - plane.mean_quanta * plane.mean_quanta;
+  double const determinant = uu * vv - uv * uv;
+  plane.per_u = (ud * vv - vd * uv) / determinant;
+  plane.per_v = (vd * uu - ud * uv) / determinant;
+  plane.rms_quanta = std::sqrt(std::max(0.0, dd - plane.per_u * ud - plane.per_v * vd));
+  return plane;
+}
+
+double length(double a, double b) {
+  return std::sqrt(a * a + b * b);
+}
+
+/// Whether two planes are one convex surface, as far as their noise tells.
+bool go_on(DiscPlane const& a, DiscPlane const& b) {
+  double const noise = length(a.rms_quanta, b.rms_quanta);
+  double const step = std::abs(a.at(0, 0) - b.at(0, 0));
+  double const slope = std::max(length(a.per_u, a.per_v), length(b.per_u, b.per_v));
+  double const concave = ((b.mean_quanta - a.at(b.mean_u, b.mean_v)) +
+                          (a.mean_quanta - b.at(a.mean_u, a.mean_v))) /
+                         2.0;
+  return step < 3.0 + 3.0 * noise + slope && concave < 1.0 + 0.6 * noise;
+}
+
+class Builder {
+public:
+  Builder(SurfaceMap const& map, PartLabels const& labels, Limits const& limits)
+      : map_(map), labels_(labels), limits_(limits) {
+    for (int v = -limits.disc_px; v <= limits.disc_px; v += 2) {
+      for (int u = -limits.disc_px; u <= limits.disc_px; u += 2) {
+        if (u * u + v * v <= limits.disc_px * limits.disc_px) {
+          disc_.push_back({u, v});
+        }
+      }
+    }
+  }
+
+  RegionGraph graph() && {
+    for (int v = 0; v < map_.height(); ++v) {
+      std::int32_t const* const row = labels_.row(v);
+      // Behind the last row and column there is no label, and so no border.
+      for (int u = 0; u < map_.width();) {
+        int const begin = u;
+        u = first_change(row, u);
+        count(row[begin], static_cast<std::uint32_t>(u - begin));
+        look_along(row, v, begin, u);
+      }
+    }
+    std::ranges::sort(graph_.borders, {},
+                      [](Border const& border) { return std::pair(border.low, border.high); });
+    return std::move(graph_);
+  }
+
+private:
+  /// The end of the run of one label that begins at u.
+  [[nodiscard]] int first_change(std::int32_t const* row, int u) const {
+    int end = u + 1;
+    while (end < map_.width() && row[end] == row[u]) {
+      ++end;
+    }
+    return end;
+  }
+
+  /// The borders of a run to what is below, and of its last pixel to what is beside.
+  void look_along(std::int32_t const* row, int v, int begin, int end) {
+    std::int32_t const* const below = row + labels_.stride();
+    for (int u = begin; u < end; ++u) {
+      if (u + 1 == end && row[u + 1] != row[u]) {
+        look(u, v, 1);
+      }
+      if (below[u] != row[u]) {
+        look(u, v, labels_.stride());
+      }
+    }
+  }
+
+  void count(std::int32_t label, std::uint32_t pixels) {
+    auto const index = static_cast<std::size_t>(label);
+    if (index >= graph_.sizes.size()) {
+      graph_.sizes.resize(index + 1, 0);
+    }
+    graph_.sizes[index] += pixels;
+  }
+
+  Border& border_of(std::int32_t a, std::int32_t b) {
+    std::int32_t const low = std::min(a, b);
+    std::int32_t const high = std::max(a, b);
+    std::uint64_t const key =
+        (static_cast<std::uint64_t>(low) << 32U) | static_cast<std::uint64_t>(high);
+    if (key != last_key_) {
+      auto const [found, is_new] = index_.try_emplace(key, graph_.borders.size());
+      if (is_new) {
+        graph_.borders.push_back({low, high});
+      }
+      last_key_ = key;
+      last_ = found->second;
+    }
+    return graph_.borders[last_];
+  }
+
+  void look(int u, int v, std::ptrdiff_t step) {
+    std::ptrdiff_t const at = v * labels_.stride() + u;
+    std::int32_t const a = labels_.row(0)[at];
+    std::int32_t const b = labels_.row(0)[at + step];
+    if (a == 0 || b == 0) {
+      return;
+    }
+    Border& border = border_of(a, b);
+    std::int16_t const* const disparity = map_.disparity.row(0);
+    std::uint8_t const* const wall = map_.wall.row(0);
+    bool const parted = !linked(disparity[at], disparity[at + step], limits_.link) ||
+                        wall[at] != 0 || wall[at + step] != 0;
+    border.parted += parted ? 1 : 0;
+    if (border.pairs++ % kSampleEvery == 0) {
+      sample(border, u, v, at, step);
+    }
+  }
+
+  void sample(Border& border, int u, int v, std::ptrdiff_t at, std::ptrdiff_t step) {
+    std::int32_t const* const labels = labels_.row(0);
+    std::int16_t const* const disparity = map_.disparity.row(0);
+    std::int32_t const a = labels[at];
+    std::int32_t const b = labels[at + step];
+    DiscSums sums_a;
+    DiscSums sums_b;
+    for (Pixel const offset : disc_) {
+      if (u + offset.u < 0 || u + offset.u >= map_.width() || v + offset.v < 0 ||
+          v + offset.v >= map_.height()) {
+        continue;
+      }
+      std::ptrdiff_t const p = at + offset.v * labels_.stride() + offset.u;
+      if (labels[p] == a) {
+        sums_a.add(offset.u, offset.v, disparity[p]);
+      } else if (labels[p] == b) {
+        sums_b.add(offset.u, offset.v, disparity[p]);
+      }
+    }
+    auto const plane_a = fitted(sums_a);
+    auto const plane_b = fitted(sums_b);
+    if (plane_a && plane_b) {
+      ++border.samples;
+      border.unlike += go_on(*plane_a, *plane_b) ? 0 : 1;
+      graph_.samples.push_back({at, at + step, *plane_a, *plane_b});
+    }
+  }
+
+  SurfaceMap const& map_;
+  PartLabels const& labels_;
+  Limits const& limits_;
+  std::vector<Pixel> disc_;
+  RegionGraph graph_;
+  std::unordered_map<std::uint64_t, std::size_t> index_;
+  std::uint64_t last_key_ = 0;
+  std::size_t last_ = 0;
+};
+
+}  // namespace
+
+RegionGraph region_graph(SurfaceMap const& map, PartLabels const& labels, Limits const& limits) {
+  return Builder(map, labels, limits).graph();
+}
+
+}  // namespace credo::segments

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "stages/segments/labels.hpp"
+#include "stages/segments/limits.hpp"
+#include "stages/segments/region_graph.hpp"
+
+namespace credo::segments {
+
+/// Joins parts across borders that no crease, jump or step holds apart, weakest border first; of
+/// equals that of the lower labels. The result names for each label the one that it went into;
+/// `graph.sizes` become those of the joined parts.
+[[nodiscard]] std::vector<std::int32_t> joined_parts(RegionGraph& graph, Limits const& limits);
+
+/// Gives pixels at the samples on the borders of large parts to the side whose plane fits them
+/// better by more than a quantum. `labels` and `graph.sizes` are those after joining.
+void sharpen_borders(SurfaceMap const& map, RegionGraph const& graph, Limits const& limits,
+                     PartLabels& labels);
+
+}  // namespace credo::segments

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/fields.hpp"
+#include "core/grid.hpp"
+
+namespace credo {
+
+/// Segments by convexity in inverse depth. Lengths in pixels are those of a camera of 525 px focal
+/// length; others are scaled. Heights are in quanta of inverse depth.
+struct SegmentsConfig {
+  /// One quantum: what the sensor's inverse depth is uncertain by [1/m]. Kinect: 0.00287.
+  double quantum_per_m = 0.00287;
+  /// Neighbours whose inverse depths differ by less are one surface.
+  double link_quanta = 9.0;
+  /// A smoothed pixel is the mean of those around it that differ by less.
+  double smooth_quanta = 6.0;
+  int smooth_radius_px = 2;
+  /// Concavity is measured between pixels so far apart, on surfaces that rise by less.
+  int reach_px = 6;
+  double reach_quanta = 15.0;
+  /// A crease is as concave as this, or as this many times the frame's own noise, if that is more,
+  double crease_quanta = 2.25;
+  double crease_noise = 1.4;
+  /// and more where the surface is steep.
+  double crease_slope = 1.75;
+  /// Of the discs in which planes are fitted on both sides of a border.
+  int disc_radius_px = 12;
+  /// Smaller parts go to what they touch.
+  int min_pixels = 80;
+};
+FieldList fields(SegmentsConfig& config);
+
+/// A frame in pieces, each a surface that a person would call one thing.
+struct Segments {
+  /// From 1, in raster order of their first pixels; 0 where there is no depth, or too little of it.
+  Grid<std::int32_t> labels;
+  /// Pixels of label i + 1.
+  std::vector<std::uint32_t> pixel_counts;
+};
+
+/// Holds touching things apart: cuts where the surface is concave, joins what is convex, so that a
+/// box is one segment and the table under it another. From depth alone, metres; not positive or not
+/// finite = invalid. The same bytes on every machine. No valid pixel gives no segment.
+///
+/// In inverse depth planes are affine in the image, a concave crease is a positive second
+/// difference, and the sensor's noise is the same at every range.
+[[nodiscard]] Segments convex_segments(Grid<float> const& depth_m, double focal_px,
+                                       SegmentsConfig const& config);
+
+}  // namespace credo
