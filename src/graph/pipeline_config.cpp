@@ -50,6 +50,7 @@ FieldList fields(PipelineConfig& config) {
       section("detector", fields(config.detector), "the black box that finds known objects"),
       section("detection", fields(config.detection), "what of its answers the belief takes"),
       section("region_growing", fields(config.region_growing), "which points are known objects'"),
+      section("segments", fields(config.segments), "surfaces that are one thing each"),
       section("planes", fields(config.planes), "floor and walls"),
       section("clustering", fields(config.clustering), "stuff: what is neither plane nor object"),
       section("fusion", fields(config.fusion), "segmentations into the belief"),

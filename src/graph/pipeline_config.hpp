@@ -14,6 +14,7 @@
 #include "stages/normals/normals.hpp"
 #include "stages/planes/planes.hpp"
 #include "stages/region_growing/region_growing.hpp"
+#include "stages/segments/segments.hpp"
 
 namespace credo {
 
@@ -67,6 +68,7 @@ struct PipelineConfig {
   DetectorConfig detector;
   DetectionConfig detection;
   RegionGrowingConfig region_growing;
+  SegmentsConfig segments;
   PlanesConfig planes;
   ClusteringConfig clustering;
   FusionConfig fusion;

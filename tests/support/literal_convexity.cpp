@@ -24,14 +24,25 @@ struct Scaled {
 
 Scaled scaled(double focal_px, SegmentsConfig const& c) {
   double const scale = focal_px / 525.0;
-  auto const px = [&](double value) { return std::max(1, static_cast<int>(std::lround(value * scale))); };
+  auto const px = [&](double value) {
+    return std::max(1, static_cast<int>(std::lround(value * scale)));
+  };
   auto const area = [&](double value) {
     return std::max(1, static_cast<int>(std::lround(value * scale * scale)));
   };
   auto const units = [](double quanta) { return static_cast<int>(std::lround(quanta * kUnits)); };
-  return {units(c.link_quanta), units(c.smooth_quanta), px(c.smooth_radius_px), px(c.reach_px),
-          px(c.reach_px * 0.7071), units(c.reach_quanta), units(c.crease_quanta),
-          px(c.disc_radius_px), area(c.min_pixels), area(4), area(1000), area(400)};
+  return {units(c.link_quanta),
+          units(c.smooth_quanta),
+          px(c.smooth_radius_px),
+          px(c.reach_px),
+          px(c.reach_px * 0.7071),
+          units(c.reach_quanta),
+          units(c.crease_quanta),
+          px(c.disc_radius_px),
+          area(c.min_pixels),
+          area(4),
+          area(1000),
+          area(400)};
 }
 
 struct Literal {
@@ -43,8 +54,15 @@ struct Literal {
   int next = 1;
 
   Literal(Grid<float> const& depth_m, double focal_px, SegmentsConfig const& c)
-      : config(c), k(scaled(focal_px, c)), d(depth_m.width(), depth_m.height()), s(d), e(d),
-        steep(d), wall(d.width(), d.height()), thickness(wall), labels(d) {
+      : config(c),
+        k(scaled(focal_px, c)),
+        d(depth_m.width(), depth_m.height()),
+        s(d),
+        e(d),
+        steep(d),
+        wall(d.width(), d.height()),
+        thickness(wall),
+        labels(d) {
     auto const per_m = static_cast<float>(kUnits / c.quantum_per_m);
     for (std::size_t i = 0; i < d.size(); ++i) {
       float const z = depth_m[i];
@@ -58,7 +76,8 @@ struct Literal {
   }
   template <typename F>
   void each(F const& f) const {
-    for (std::size_t i = 0; i < d.size(); ++i) f(d.pixel(i));
+    for (std::size_t i = 0; i < d.size(); ++i)
+      f(d.pixel(i));
   }
 
   void smooth() {
@@ -67,20 +86,29 @@ struct Literal {
       for (int v = -k.smooth_radius; v <= k.smooth_radius; ++v)
         for (int u = -k.smooth_radius; u <= k.smooth_radius; ++u) {
           int const other = at(d, {p.u + u, p.v + v});
-          if (other > 0 && std::abs(other - d[p]) < k.smooth) { sum += other - d[p]; ++count; }
+          if (other > 0 && std::abs(other - d[p]) < k.smooth) {
+            sum += other - d[p];
+            ++count;
+          }
         }
-      s[p] = d[p] == 0 ? 0 : d[p] + static_cast<int>(std::nearbyint(static_cast<float>(sum) / static_cast<float>(count)));
+      s[p] = d[p] == 0 ? 0
+                       : d[p] + static_cast<int>(std::nearbyint(static_cast<float>(sum) /
+                                                                static_cast<float>(count)));
     });
   }
   void concavity() {
-    std::array<Pixel, 4> const offsets = {{{k.reach, 0}, {0, k.reach}, {k.diagonal, k.diagonal}, {k.diagonal, -k.diagonal}}};
+    std::array<Pixel, 4> const offsets = {
+        {{k.reach, 0}, {0, k.reach}, {k.diagonal, k.diagonal}, {k.diagonal, -k.diagonal}}};
     each([&](Pixel p) {
       int const c = s[p];
-      if (c == 0) return;
+      if (c == 0)
+        return;
       for (Pixel const o : offsets) {
         int const a = at(s, {p.u + o.u, p.v + o.v});
         int const b = at(s, {p.u - o.u, p.v - o.v});
-        if (a == 0 || b == 0 || std::abs(a - c) >= k.reach_units || std::abs(b - c) >= k.reach_units) continue;
+        if (a == 0 || b == 0 || std::abs(a - c) >= k.reach_units ||
+            std::abs(b - c) >= k.reach_units)
+          continue;
         e[p] = std::max(e[p], a + b - 2 * c);
         steep[p] = std::max(steep[p], std::abs(a - b));
       }
@@ -90,12 +118,18 @@ struct Literal {
     std::vector<int> sample;
     for (int v = 0; v < d.height(); v += 3)
       for (int u = 0; u < d.width(); u += 5)
-        if (d[Pixel{u, v}] > 0) sample.push_back(e[Pixel{u, v}]);
+        if (d[Pixel{u, v}] > 0)
+          sample.push_back(e[Pixel{u, v}]);
     std::sort(sample.begin(), sample.end());
-    int const n75 = sample.empty() ? 0 : sample[sample.size() * 3 / 4 < sample.size() ? sample.size() * 3 / 4 : sample.size() - 1];
+    int const n75 = sample.empty()
+                        ? 0
+                        : sample[sample.size() * 3 / 4 < sample.size() ? sample.size() * 3 / 4
+                                                                       : sample.size() - 1];
     int const e0 = std::max(k.crease, static_cast<int>(std::lround(config.crease_noise * n75)));
     each([&](Pixel p) {
-      wall[p] = d[p] > 0 && e[p] > e0 + static_cast<int>(std::lround(config.crease_slope / 12 * 65536)) * steep[p] / 65536;
+      wall[p] =
+          d[p] > 0 && e[p] > e0 + static_cast<int>(std::lround(config.crease_slope / 12 * 65536)) *
+                                      steep[p] / 65536;
     });
   }
   void thick() {
@@ -103,28 +137,32 @@ struct Literal {
       bool solid = d[p] > 0 && !wall[p];
       for (Pixel const o : kFour) {
         Pixel const q{p.u + o.u, p.v + o.v};
-        if (at(d, q) > 0 && !linked(p, q)) solid = false;
+        if (at(d, q) > 0 && !linked(p, q))
+          solid = false;
       }
       thickness[p] = solid ? 1 : 0;
     });
     for (int level = 1; level < 4; ++level) {
       Grid<std::uint8_t> const before = thickness;
       each([&](Pixel p) {
-        if (before[p] != level) return;
+        if (before[p] != level)
+          return;
         bool inner = true;
         for (int v = -1; v <= 1; ++v)
           for (int u = -1; u <= 1; ++u) {
             Pixel const q{p.u + u, p.v + v};
             inner = inner && before.contains(q) && before[q] >= level;
           }
-        if (inner) thickness[p] = static_cast<std::uint8_t>(level + 1);
+        if (inner)
+          thickness[p] = static_cast<std::uint8_t>(level + 1);
       });
     }
   }
   void components(int level, int min_pixels) {
     Ints seen(d.width(), d.height());
     each([&](Pixel start) {
-      if (thickness[start] < level || labels[start] > 0 || seen[start] > 0) return;
+      if (thickness[start] < level || labels[start] > 0 || seen[start] > 0)
+        return;
       std::vector<Pixel> part = {start};
       seen[start] = 1;
       for (std::size_t i = 0; i < part.size(); ++i)
@@ -136,7 +174,8 @@ struct Literal {
           }
         }
       if (static_cast<int>(part.size()) >= min_pixels) {
-        for (Pixel const p : part) labels[p] = next;
+        for (Pixel const p : part)
+          labels[p] = next;
         ++next;
       }
     });
@@ -144,7 +183,8 @@ struct Literal {
   void grow(int level) {
     std::deque<Pixel> queue;
     each([&](Pixel p) {
-      if (labels[p] > 0) queue.push_back(p);
+      if (labels[p] > 0)
+        queue.push_back(p);
     });
     while (!queue.empty()) {
       Pixel const p = queue.front();
@@ -169,7 +209,8 @@ struct Literal {
     std::array<std::deque<Pixel>, 64> buckets;
     Ints key(d.width(), d.height());
     each([&](Pixel p) {
-      if (labels[p] > 0) buckets[0].push_back(p);
+      if (labels[p] > 0)
+        buckets[0].push_back(p);
     });
     for (std::size_t b = 0; b < 64; ++b)
       while (!buckets[b].empty()) {
@@ -177,7 +218,8 @@ struct Literal {
         buckets[b].pop_front();
         for (Pixel const o : kFour) {
           Pixel const q{p.u + o.u, p.v + o.v};
-          if (at(d, q) == 0 || labels[q] > 0 || (across_links && !linked(p, q))) continue;
+          if (at(d, q) == 0 || labels[q] > 0 || (across_links && !linked(p, q)))
+            continue;
           labels[q] = labels[p];
           key[q] = std::max(static_cast<int>(b), std::min(63, e[q] * 2 / kUnits));
           buckets[static_cast<std::size_t>(key[q])].push_back(q);
@@ -198,16 +240,29 @@ struct Literal {
   static double len(double a, double b) { return std::sqrt(a * a + b * b); }
   using Point = std::array<double, 3>;
   static std::optional<Fit> plane(std::vector<Point> const& points) {
-    if (points.size() < 20) return std::nullopt;
+    if (points.size() < 20)
+      return std::nullopt;
     auto const n = static_cast<double>(points.size());
     double su = 0, sv = 0, sd = 0, suu = 0, suv = 0, svv = 0, sud = 0, svd = 0, sdd = 0;
     for (auto const& [u, v, z] : points) {
-      su += u; sv += v; sd += z; suu += u * u; suv += u * v; svv += v * v; sud += u * z; svd += v * z; sdd += z * z;
+      su += u;
+      sv += v;
+      sd += z;
+      suu += u * u;
+      suv += u * v;
+      svv += v * v;
+      sud += u * z;
+      svd += v * z;
+      sdd += z * z;
     }
     Fit f;
-    f.mean_u = su / n; f.mean_v = sv / n; f.a = sd / n;
-    double const cuu = suu / n - f.mean_u * f.mean_u + 0.3, cvv = svv / n - f.mean_v * f.mean_v + 0.3;
-    double const cuv = suv / n - f.mean_u * f.mean_v, cud = sud / n - f.mean_u * f.a, cvd = svd / n - f.mean_v * f.a;
+    f.mean_u = su / n;
+    f.mean_v = sv / n;
+    f.a = sd / n;
+    double const cuu = suu / n - f.mean_u * f.mean_u + 0.3,
+                 cvv = svv / n - f.mean_v * f.mean_v + 0.3;
+    double const cuv = suv / n - f.mean_u * f.mean_v, cud = sud / n - f.mean_u * f.a,
+                 cvd = svd / n - f.mean_v * f.a;
     double const det = cuu * cvv - cuv * cuv;
     f.bu = (cud * cvv - cvd * cuv) / det;
     f.bv = (cvd * cuu - cud * cuv) / det;
@@ -222,19 +277,26 @@ struct Literal {
     std::vector<Point> pa, pb;
     for (int v = -k.disc; v <= k.disc; v += 2)
       for (int u = -k.disc; u <= k.disc; u += 2) {
-        if (u * u + v * v > k.disc * k.disc) continue;
+        if (u * u + v * v > k.disc * k.disc)
+          continue;
         Pixel const r{p.u + u, p.v + v};
-        if (at(d, r) == 0) continue;
-        Point const point = {static_cast<double>(u), static_cast<double>(v), static_cast<double>(d[r]) / kUnits};
-        if (labels[r] == a) pa.push_back(point);
-        if (labels[r] == b) pb.push_back(point);
+        if (at(d, r) == 0)
+          continue;
+        Point const point = {static_cast<double>(u), static_cast<double>(v),
+                             static_cast<double>(d[r]) / kUnits};
+        if (labels[r] == a)
+          pa.push_back(point);
+        if (labels[r] == b)
+          pb.push_back(point);
       }
     auto const fa = plane(pa), fb = plane(pb);
-    if (!fa || !fb) return;
+    if (!fa || !fb)
+      return;
     double const sg = len(fa->rms, fb->rms);
     double const step = std::abs(fa->at(0, 0) - fb->at(0, 0));
     double const gm = std::max(len(fa->bu, fa->bv), len(fb->bu, fb->bv));
-    double const c = ((fb->a - fa->at(fb->mean_u, fb->mean_v)) + (fa->a - fb->at(fa->mean_u, fa->mean_v))) / 2;
+    double const c =
+        ((fb->a - fa->at(fb->mean_u, fb->mean_v)) + (fa->a - fb->at(fa->mean_u, fa->mean_v))) / 2;
     bool const connected = step < 3 + 3 * sg + gm && c < 1 + 0.6 * sg;
     edge.n += 1;
     edge.u += connected ? 0 : 1;
@@ -244,11 +306,13 @@ struct Literal {
     each([&](Pixel p) {
       for (Pixel const o : {Pixel{1, 0}, Pixel{0, 1}}) {
         Pixel const q{p.u + o.u, p.v + o.v};
-        if (!d.contains(q) || labels[p] == 0 || labels[q] == 0 || labels[p] == labels[q]) continue;
+        if (!d.contains(q) || labels[p] == 0 || labels[q] == 0 || labels[p] == labels[q])
+          continue;
         Edge& edge = edges[{std::min(labels[p], labels[q]), std::max(labels[p], labels[q])}];
         edge.tot += 1;
         edge.w += !linked(p, q) || wall[p] || wall[q] ? 1 : 0;
-        if (static_cast<int>(edge.tot) % 3 == 1) sample(edge, p, q);
+        if (static_cast<int>(edge.tot) % 3 == 1)
+          sample(edge, p, q);
       }
     });
   }
@@ -257,45 +321,66 @@ struct Literal {
   void merge() {
     root.resize(static_cast<std::size_t>(next));
     size.assign(static_cast<std::size_t>(next), 0);
-    for (int i = 0; i < next; ++i) root[static_cast<std::size_t>(i)] = i;
-    for (int const l : labels) ++size[static_cast<std::size_t>(l)];
+    for (int i = 0; i < next; ++i)
+      root[static_cast<std::size_t>(i)] = i;
+    for (int const l : labels)
+      ++size[static_cast<std::size_t>(l)];
     while (true) {
       double best = 0.5;
       std::pair<int, int> pair{0, 0};
       for (auto const& [ab, edge] : edges) {
-        if (edge.tot < 8) continue;
-        double score = edge.n > 0 ? 0.3 * (edge.w / edge.tot) + 0.7 * (edge.u / edge.n) : edge.w / edge.tot;
-        int const smaller = std::min(size[static_cast<std::size_t>(ab.first)], size[static_cast<std::size_t>(ab.second)]);
+        if (edge.tot < 8)
+          continue;
+        double score =
+            edge.n > 0 ? 0.3 * (edge.w / edge.tot) + 0.7 * (edge.u / edge.n) : edge.w / edge.tot;
+        int const smaller = std::min(size[static_cast<std::size_t>(ab.first)],
+                                     size[static_cast<std::size_t>(ab.second)]);
         score -= smaller < k.small_pixels ? 0.1 : 0.0;
-        if (score < best) { best = score; pair = ab; }
+        if (score < best) {
+          best = score;
+          pair = ab;
+        }
       }
-      if (pair.second == 0) break;
+      if (pair.second == 0)
+        break;
       auto const [into, from] = pair;
       size[static_cast<std::size_t>(into)] += size[static_cast<std::size_t>(from)];
-      for (int& r : root) r = r == from ? into : r;
+      for (int& r : root)
+        r = r == from ? into : r;
       std::map<std::pair<int, int>, Edge> joined;
       for (auto const& [ab, edge] : edges) {
         int a = ab.first == from ? into : ab.first, b = ab.second == from ? into : ab.second;
-        if (a == b) continue;
+        if (a == b)
+          continue;
         Edge& e2 = joined[{std::min(a, b), std::max(a, b)}];
-        e2.tot += edge.tot; e2.w += edge.w; e2.n += edge.n; e2.u += edge.u;
+        e2.tot += edge.tot;
+        e2.w += edge.w;
+        e2.n += edge.n;
+        e2.u += edge.u;
       }
       edges = std::move(joined);
     }
-    for (int& l : labels) l = root[static_cast<std::size_t>(l)];
+    for (int& l : labels)
+      l = root[static_cast<std::size_t>(l)];
   }
   void border() {
     for (Sample const& sample : samples) {
       int const a = labels[sample.p], b = labels[sample.q];
-      if (a == b || size[static_cast<std::size_t>(a)] < k.border_pixels || size[static_cast<std::size_t>(b)] < k.border_pixels) continue;
+      if (a == b || size[static_cast<std::size_t>(a)] < k.border_pixels ||
+          size[static_cast<std::size_t>(b)] < k.border_pixels)
+        continue;
       for (int v = -1; v <= 1; ++v)
         for (int u = -1; u <= 1; ++u) {
           Pixel const r{sample.p.u + u, sample.p.v + v};
-          if (!d.contains(r) || (labels[r] != a && labels[r] != b)) continue;
+          if (!d.contains(r) || (labels[r] != a && labels[r] != b))
+            continue;
           double const value = static_cast<double>(d[r]) / kUnits;
-          double const ra = std::abs(value - sample.fit_a.at(u, v)), rb = std::abs(value - sample.fit_b.at(u, v));
-          if (labels[r] == a && rb + 1 < ra) labels[r] = b;
-          else if (labels[r] == b && ra + 1 < rb) labels[r] = a;
+          double const ra = std::abs(value - sample.fit_a.at(u, v)),
+                       rb = std::abs(value - sample.fit_b.at(u, v));
+          if (labels[r] == a && rb + 1 < ra)
+            labels[r] = b;
+          else if (labels[r] == b && ra + 1 < rb)
+            labels[r] = a;
         }
     }
   }
@@ -304,9 +389,12 @@ struct Literal {
     out.labels = Grid<std::int32_t>(d.width(), d.height());
     std::map<int, std::int32_t> numbers;
     for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (labels[i] == 0) continue;
-      auto const [it, is_new] = numbers.try_emplace(labels[i], static_cast<std::int32_t>(numbers.size() + 1));
-      if (is_new) out.pixel_counts.push_back(0);
+      if (labels[i] == 0)
+        continue;
+      auto const [it, is_new] =
+          numbers.try_emplace(labels[i], static_cast<std::int32_t>(numbers.size() + 1));
+      if (is_new)
+        out.pixel_counts.push_back(0);
       ++out.pixel_counts[static_cast<std::size_t>(it->second - 1)];
       out.labels[i] = it->second;
     }
@@ -316,7 +404,8 @@ struct Literal {
 
 }  // namespace
 
-Segments literal_convex_segments(Grid<float> const& depth_m, double focal_px, SegmentsConfig const& config) {
+Segments literal_convex_segments(Grid<float> const& depth_m, double focal_px,
+                                 SegmentsConfig const& config) {
   Literal l(depth_m, focal_px, config);
   l.smooth();
   l.concavity();

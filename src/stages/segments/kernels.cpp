@@ -104,9 +104,8 @@ void concavity_row_lanes(std::int16_t const* centre, std::array<std::ptrdiff_t, 
       V16 const b = load(centre + u - offset);
       V16 const to_a = a - c;
       V16 const to_b = b - c;
-      M16 const one_surface =
-          hn::And(hn::And(hn::Abs(to_a) < most, hn::Abs(to_b) < most),
-                  hn::And(hn::And(a > zero, b > zero), c > zero));
+      M16 const one_surface = hn::And(hn::And(hn::Abs(to_a) < most, hn::Abs(to_b) < most),
+                                      hn::And(hn::And(a > zero, b > zero), c > zero));
       largest = hn::Max(largest, hn::IfThenElseZero(one_surface, to_a + to_b));
       steepest = hn::Max(steepest, hn::IfThenElseZero(one_surface, hn::Abs(to_a - to_b)));
     }
@@ -133,9 +132,8 @@ void crease_row_lanes(std::int16_t const* disparity, std::ptrdiff_t stride,
   for (std::size_t u = 0; u < count; u += hn::Lanes(D16())) {
     V16 const c = load(disparity + u);
     M16 const valid = c > hn::Zero(D16());
-    V16 const allowed =
-        hn::SaturatedAdd(constant(limits.crease),
-                         hn::MulHigh(load(steepness + u), constant(limits.slope)));
+    V16 const allowed = hn::SaturatedAdd(constant(limits.crease),
+                                         hn::MulHigh(load(steepness + u), constant(limits.slope)));
     M16 const is_wall = hn::And(valid, load(concavity + u) > allowed);
     M16 const jumps = hn::Or(hn::Or(ends_here(c, load(disparity + u - 1), link),
                                     ends_here(c, load(disparity + u + 1), link)),
@@ -154,7 +152,8 @@ void thicken_row_lanes(std::uint8_t const* centre, std::ptrdiff_t stride, std::u
   for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
     auto const column = [&](std::ptrdiff_t du) {
       std::uint8_t const* const at = centre + u + du;
-      return hn::Min(hn::LoadU(d, at), hn::Min(hn::LoadU(d, at - stride), hn::LoadU(d, at + stride)));
+      return hn::Min(hn::LoadU(d, at),
+                     hn::Min(hn::LoadU(d, at - stride), hn::LoadU(d, at + stride)));
     };
     auto const least = hn::Min(column(0), hn::Min(column(-1), column(1)));
     auto const c = hn::LoadU(d, centre + u);
@@ -181,7 +180,8 @@ void front_row_lanes(std::uint8_t const* centre, std::ptrdiff_t stride, std::uin
   for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
     std::uint8_t const* const at = centre + u;
     auto const beside = hn::Max(hn::LoadU(d, at - 1), hn::LoadU(d, at + 1));
-    auto const most = hn::Max(beside, hn::Max(hn::LoadU(d, at - stride), hn::LoadU(d, at + stride)));
+    auto const most =
+        hn::Max(beside, hn::Max(hn::LoadU(d, at - stride), hn::LoadU(d, at + stride)));
     auto const is_front = hn::And(hn::Max(most, bound) == most, hn::LoadU(d, at) == hn::Zero(d));
     hn::StoreU(hn::IfThenElseZero(is_front, most), d, out + u);
   }
@@ -216,12 +216,11 @@ void concavity_row(std::int16_t const* centre, std::array<std::ptrdiff_t, 4> con
   HWY_DYNAMIC_DISPATCH(concavity_row_lanes)(centre, offsets, limit, count, concavity, steepness);
 }
 
-void crease_row(std::int16_t const* disparity, std::ptrdiff_t stride,
-                std::int16_t const* concavity, std::int16_t const* steepness,
-                CreaseLimits const& limits, std::size_t count, std::uint8_t* wall,
-                std::uint8_t* solid) {
-  HWY_DYNAMIC_DISPATCH(crease_row_lanes)(disparity, stride, concavity, steepness, limits, count,
-                                         wall, solid);
+void crease_row(std::int16_t const* disparity, std::ptrdiff_t stride, std::int16_t const* concavity,
+                std::int16_t const* steepness, CreaseLimits const& limits, std::size_t count,
+                std::uint8_t* wall, std::uint8_t* solid) {
+  HWY_DYNAMIC_DISPATCH(crease_row_lanes)
+  (disparity, stride, concavity, steepness, limits, count, wall, solid);
 }
 
 void thicken_row(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t level,

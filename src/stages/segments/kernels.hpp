@@ -20,8 +20,8 @@ void smooth_row(std::int16_t const* centre, std::ptrdiff_t stride, int radius, s
                 std::size_t count, std::int16_t* out);
 
 /// Of each pixel c, over the pairs a, b at plus and minus each offset: `concavity` is the largest
-/// a + b - 2c, or 0, `steepness` the largest |a - b|. Pairs count where neither is 0 and both differ
-/// from c by less than `limit`.
+/// a + b - 2c, or 0, `steepness` the largest |a - b|. Pairs count where neither is 0 and both
+/// differ from c by less than `limit`.
 void concavity_row(std::int16_t const* centre, std::array<std::ptrdiff_t, 4> const& offsets,
                    std::int16_t limit, std::size_t count, std::int16_t* concavity,
                    std::int16_t* steepness);
@@ -34,10 +34,9 @@ struct CreaseLimits {
   std::int16_t slope = 0;
   std::int16_t link = 0;
 };
-void crease_row(std::int16_t const* disparity, std::ptrdiff_t stride,
-                std::int16_t const* concavity, std::int16_t const* steepness,
-                CreaseLimits const& limits, std::size_t count, std::uint8_t* wall,
-                std::uint8_t* solid);
+void crease_row(std::int16_t const* disparity, std::ptrdiff_t stride, std::int16_t const* concavity,
+                std::int16_t const* steepness, CreaseLimits const& limits, std::size_t count,
+                std::uint8_t* wall, std::uint8_t* solid);
 
 /// One more than `level` where all of the 3x3 pixels around are `level` or more and the centre is;
 /// else the centre.

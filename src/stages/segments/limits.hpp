@@ -10,7 +10,8 @@ namespace credo::segments {
 /// fits sixteen bits.
 inline constexpr int kUnitsPerQuantum = 16;
 
-/// Of images with more pixels to a radian no more is looked at.
+/// Of images with more pixels to a radian no more is looked at: the sums of a window of that
+/// radius, of differences of up to 7 quanta, fit sixteen bits.
 inline constexpr int kMaxSmooth_px = 8;
 inline constexpr int kMaxReach_px = 32;
 

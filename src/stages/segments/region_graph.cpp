@@ -74,9 +74,9 @@ bool go_on(DiscPlane const& a, DiscPlane const& b) {
   double const noise = length(a.rms_quanta, b.rms_quanta);
   double const step = std::abs(a.at(0, 0) - b.at(0, 0));
   double const slope = std::max(length(a.per_u, a.per_v), length(b.per_u, b.per_v));
-  double const concave = ((b.mean_quanta - a.at(b.mean_u, b.mean_v)) +
-                          (a.mean_quanta - b.at(a.mean_u, a.mean_v))) /
-                         2.0;
+  double const concave =
+      ((b.mean_quanta - a.at(b.mean_u, b.mean_v)) + (a.mean_quanta - b.at(a.mean_u, a.mean_v))) /
+      2.0;
   return step < 3.0 + 3.0 * noise + slope && concave < 1.0 + 0.6 * noise;
 }
 

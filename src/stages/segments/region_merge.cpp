@@ -25,10 +25,10 @@ std::optional<double> strength(Border const& border, std::uint32_t smaller_px,
     return std::nullopt;
   }
   double const parted = static_cast<double>(border.parted) / static_cast<double>(border.pairs);
-  double const score =
-      border.samples > 0 ? 0.3 * parted + 0.7 * (static_cast<double>(border.unlike) /
-                                                 static_cast<double>(border.samples))
-                         : parted;
+  double const score = border.samples > 0
+                           ? 0.3 * parted + 0.7 * (static_cast<double>(border.unlike) /
+                                                   static_cast<double>(border.samples))
+                           : parted;
   return score - (smaller_px < limits.small_px ? 0.1 : 0.0);
 }
 

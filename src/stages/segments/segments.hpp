@@ -1,16 +1,16 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "core/fields.hpp"
 #include "core/grid.hpp"
+#include "core/segments.hpp"
 
 namespace credo {
 
 /// Segments by convexity in inverse depth. Lengths in pixels are those of a camera of 525 px focal
 /// length; others are scaled. Heights are in quanta of inverse depth.
 struct SegmentsConfig {
+  /// Without, clusters are grown from points and normals (thesis 3.3).
+  bool enabled = true;
   /// One quantum: what the sensor's inverse depth is uncertain by [1/m]. Kinect: 0.00287.
   double quantum_per_m = 0.00287;
   /// Neighbours whose inverse depths differ by less are one surface.
@@ -32,14 +32,6 @@ struct SegmentsConfig {
   int min_pixels = 80;
 };
 FieldList fields(SegmentsConfig& config);
-
-/// A frame in pieces, each a surface that a person would call one thing.
-struct Segments {
-  /// From 1, in raster order of their first pixels; 0 where there is no depth, or too little of it.
-  Grid<std::int32_t> labels;
-  /// Pixels of label i + 1.
-  std::vector<std::uint32_t> pixel_counts;
-};
 
 /// Holds touching things apart: cuts where the surface is concave, joins what is convex, so that a
 /// box is one segment and the table under it another. From depth alone, metres; not positive or not

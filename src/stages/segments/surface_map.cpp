@@ -98,8 +98,8 @@ SurfaceMap map_surfaces(Grid<float> const& depth_m, Limits const& limits) {
   CreaseLimits const creases{static_cast<std::int16_t>(std::min(crease, 32000)), limits.slope,
                              limits.link};
   for (int v = 0; v < height; ++v) {
-    crease_row(map.disparity.row(v), map.disparity.stride(), map.concavity.row(v),
-               steepness.row(v), creases, count, map.wall.row(v), map.thickness.row(v));
+    crease_row(map.disparity.row(v), map.disparity.stride(), map.concavity.row(v), steepness.row(v),
+               creases, count, map.wall.row(v), map.thickness.row(v));
     map.wall.end_row(v);
     map.thickness.end_row(v);
   }
