@@ -15,6 +15,7 @@
 #include "core/label.hpp"
 #include "core/object_model.hpp"
 #include "core/plane.hpp"
+#include "core/segments.hpp"
 
 namespace credo {
 
@@ -91,9 +92,9 @@ struct Segmentation {
   /// False where no floor was found to level by: z = 0 then means nothing, and nothing is floor.
   bool floor_at_zero = true;
   LabelMap labels;
-  /// Large planes that are neither floor nor wall, such as a table top, numbered from 1; 0
-  /// elsewhere. Stuff does not join across their borders. Empty where no plane is told apart.
-  Grid<std::uint8_t> surfaces;
+  /// The frame in pieces that are one thing each, told from depth alone. Empty where the config
+  /// leaves them out: then clusters are grown from points and normals.
+  Segments segments;
   std::optional<FloorObservation> floor;
   std::vector<WallObservation> walls;
   /// In the belief's order.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "stages/segments/settling.hpp"
+
 namespace credo {
 namespace {
 
@@ -62,6 +64,11 @@ Stages make_stages(PipelineConfig const& config, WorldLevel const& level, Prior 
                         config);
   };
   stages.planes = [config](Frame const& frame, NormalMap const& normals, Segmentation so_far) {
+    if (config.segments.enabled) {
+      so_far.segments =
+          convex_segments(frame.cloud_camera.z, frame.intrinsics.fx_px, config.segments);
+      so_far = settle_objects(std::move(so_far));
+    }
     return extract_planes(frame, normals, std::move(so_far), config.planes);
   };
   stages.clustering = [config](Frame const& frame, NormalMap const& normals, Segmentation so_far) {

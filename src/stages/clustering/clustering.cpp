@@ -5,7 +5,6 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -31,51 +30,41 @@ void check(Frame const& frame, NormalMap const& normals, Segmentation const& seg
   }
 }
 
-// Of the pixels that nothing explains and that belong to this surface, 0 for none.
-Runs components_on(std::uint8_t surface, Frame const& frame, NormalMap const& normals,
-                   Segmentation const& segmentation, ClusteringConfig const& config) {
+// Of the pixels that nothing explains, those that join by distance and angle.
+Runs reachable_components(Frame const& frame, NormalMap const& normals,
+                          Segmentation const& segmentation, ClusteringConfig const& config) {
   LabelMap const& labels = segmentation.labels;
-  Grid<std::uint8_t> const& surfaces = segmentation.surfaces;
   Grid<std::uint8_t> active(labels.width(), labels.height());
   for (std::size_t i = 0; i < labels.size(); ++i) {
     active[i] = static_cast<std::uint8_t>(labels[i] == kUnassigned);
-  }
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    active[i] &= static_cast<std::uint8_t>(surfaces[i] == surface);
   }
   return component_runs(frame.cloud_camera, normals, active,
                         {.radius_m = static_cast<float>(config.radius_m),
                          .max_angle_rad = static_cast<float>(config.max_angle_rad)});
 }
 
-// Numbers components from 0 in raster order of their first pixels.
-void number_in_raster_order(Runs& runs) {
-  std::ranges::sort(runs, {}, [](ComponentRun const& run) { return std::pair(run.v, run.begin); });
-  std::unordered_map<std::int32_t, std::int32_t> numbers;
-  for (ComponentRun& run : runs) {
-    auto const next = static_cast<std::int32_t>(numbers.size());
-    run.component = numbers.try_emplace(run.component, next).first->second;
-  }
-}
-
-Runs unexplained_components(Frame const& frame, NormalMap const& normals,
-                            Segmentation const& segmentation, ClusteringConfig const& config) {
-  Runs runs = components_on(0, frame, normals, segmentation, config);
-  Grid<std::uint8_t> const& surfaces = segmentation.surfaces;
-  int const count = surfaces.empty() ? 0 : *std::ranges::max_element(surfaces);
-  std::int32_t offset = 0;
-  for (int surface = 1; surface <= count; ++surface) {
-    for (ComponentRun const& run : runs) {
-      offset = std::max(offset, run.component + 1);
+// Of the pixels that nothing explains, those of one segment each; numbered from 0 in raster order.
+Runs segment_components(Segmentation const& segmentation) {
+  LabelMap const& labels = segmentation.labels;
+  Grid<std::int32_t> const& segments = segmentation.segments.labels;
+  std::vector<std::int32_t> number_of(segmentation.segments.pixel_counts.size() + 1, -1);
+  std::int32_t count = 0;
+  Runs runs;
+  for (int v = 0; v < labels.height(); ++v) {
+    for (int u = 0; u < labels.width();) {
+      std::int32_t const segment = segments[{u, v}];
+      int const begin = u;
+      while (u < labels.width() && labels[{u, v}] == kUnassigned && segments[{u, v}] == segment) {
+        ++u;
+      }
+      if (u == begin || segment == 0) {
+        u = std::max(u, begin + 1);
+        continue;
+      }
+      std::int32_t& number = number_of[static_cast<std::size_t>(segment)];
+      number = number < 0 ? count++ : number;
+      runs.push_back({.v = v, .begin = begin, .end = u, .component = number});
     }
-    for (ComponentRun run :
-         components_on(static_cast<std::uint8_t>(surface), frame, normals, segmentation, config)) {
-      run.component += offset;
-      runs.push_back(run);
-    }
-  }
-  if (count > 0) {
-    number_in_raster_order(runs);
   }
   return runs;
 }
@@ -140,15 +129,19 @@ Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals, Segment
                            ClusteringConfig const& config) {
   check(frame, normals, segmentation);
   LabelMap& labels = segmentation.labels;
-  Runs const runs = unexplained_components(frame, normals, segmentation, config);
+  bool const has_segments = !segmentation.segments.labels.empty();
+  Runs const runs = has_segments ? segment_components(segmentation)
+                                 : reachable_components(frame, normals, segmentation, config);
   std::vector<LabelCode> const label =
       labels_of(sizes_of(runs), static_cast<std::size_t>(std::max(config.min_pixels, 1)));
   for (ComponentRun const& run : runs) {
     std::fill_n(labels.row(run.v).begin() + run.begin, run.end - run.begin,
                 label[static_cast<std::size_t>(run.component)]);
   }
-  labels = spread_labels(frame.cloud_camera, normals, std::move(labels),
-                         static_cast<float>(config.radius_m), config.spread_px);
+  if (!has_segments) {
+    labels = spread_labels(frame.cloud_camera, normals, std::move(labels),
+                           static_cast<float>(config.radius_m), config.spread_px);
+  }
   segmentation.stuff = stuff_clusters(frame.cloud_camera, labels, segmentation.T_world_camera,
                                       static_cast<float>(config.point_spacing_m));
   return segmentation;

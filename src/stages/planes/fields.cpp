@@ -95,13 +95,6 @@ FieldList kind_fields(PlanesConfig& config) {
        {0, 10},
        "m",
        "wall: height from its lowest to its highest point, at least"},
-      {"surface_min_share",
-       &config.surface_min_share,
-       {0, 1},
-       "",
-       "a plane that is neither, with so large a share of the pixels with depth, is told apart "
-       "from "
-       "what stands on it; 0 for never"},
       {"point_spacing_m",
        &config.point_spacing_m,
        {0.001, 1},

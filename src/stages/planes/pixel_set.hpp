@@ -70,6 +70,11 @@ struct CountedPixels {
   PixelSet pixels;
   std::size_t count = 0;
 
+  /// One that is not among them yet.
+  void insert(std::size_t pixel) {
+    pixels.insert(pixel);
+    ++count;
+  }
   /// Takes out some of them: `others` must be a part of these.
   void remove(CountedPixels const& others) {
     pixels.remove(others.pixels);

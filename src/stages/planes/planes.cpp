@@ -71,8 +71,48 @@ CountedPixels pixels_with_depth(LabelMap const& labels) {
 /// then every pixel is asked.
 class RemainingPoints {
 public:
-  RemainingPoints(View const& view, CountedPixels pixels)
-      : view_(view), pixels_(std::move(pixels)) {}
+  RemainingPoints(View const& view, Segments const& segments, CountedPixels pixels)
+      : view_(view), segments_(segments), pixels_(std::move(pixels)) {
+    if (!segments.labels.empty()) {
+      eligible_.assign(segments.pixel_counts.size() + 1, 0);
+      pixels_.pixels.for_each([&](std::size_t i) { ++eligible_[segment_of(i)]; });
+    }
+  }
+
+  /// Fits what a floor or wall has taken to the segments: all of those that it holds most of, as
+  /// far as they keep near, and nothing of those that it holds little of.
+  void settle(PixelPlane& plane) {
+    if (eligible_.empty()) {
+      return;
+    }
+    std::vector<std::uint32_t> held(eligible_.size(), 0);
+    plane.inliers.pixels.for_each([&](std::size_t i) { ++held[segment_of(i)]; });
+    auto const share = [&](std::size_t i) {
+      std::size_t const segment = segment_of(i);
+      return segment == 0
+                 ? 0.5
+                 : static_cast<double>(held[segment]) / static_cast<double>(eligible_[segment]);
+    };
+    CountedPixels back{PixelSet(view_.cloud.size()), 0};
+    plane.inliers.pixels.for_each([&](std::size_t i) {
+      if (share(i) <= kHardlyShare) {
+        back.insert(i);
+      }
+    });
+    CountedPixels near{PixelSet(view_.cloud.size()), 0};
+    pixels_.pixels.for_each([&](std::size_t i) {
+      if (share(i) >= kMostlyShare) {
+        near.insert(i);
+      }
+    });
+    PlaneTolerance const wide{kNear * view_.tolerance.fixed_m, kNear * view_.tolerance.noise_sigmas,
+                              0.0F};
+    near = plane_inliers(plane.camera, view_.cloud, view_.normals, near.pixels, wide);
+    pixels_.remove(near);
+    plane.inliers.remove(back);
+    near.pixels.for_each([&](std::size_t i) { plane.inliers.insert(i); });
+    back.pixels.for_each([&](std::size_t i) { pixels_.insert(i); });
+  }
 
   /// Takes the largest plane out; none once it has fewer pixels than a plane must have.
   std::optional<PixelPlane> take_largest(std::uint32_t seed) {
@@ -99,6 +139,15 @@ public:
   }
 
 private:
+  static constexpr double kMostlyShare = 0.6;
+  static constexpr double kHardlyShare = 0.2;
+  /// So many tolerances from the plane is near enough for what is on its segment anyway.
+  static constexpr float kNear = 3.0F;
+
+  [[nodiscard]] std::size_t segment_of(std::size_t pixel) const {
+    return static_cast<std::size_t>(segments_.labels[pixel]);
+  }
+
   /// Planes thin the sample out: once half of it has gone, what remains is sampled anew.
   void refresh_sample() {
     auto const most = static_cast<std::size_t>(view_.config.sample_points);
@@ -121,7 +170,11 @@ private:
   }
 
   View const& view_;
+  Segments const& segments_;
   CountedPixels pixels_;
+  /// Of each segment, how many pixels nothing had taken before the first plane. Empty without
+  /// segments.
+  std::vector<std::uint32_t> eligible_;
   PlaneSearchPoints sample_;
 };
 
@@ -247,34 +300,6 @@ void add_wall(View const& view, PixelPlane const& plane, Segmentation& segmentat
   segmentation.walls.push_back(std::move(wall));
 }
 
-/// Neither floor nor wall: where it is large, its pixels get the next number.
-class SurfaceNumbers {
-public:
-  SurfaceNumbers(View const& view, Segmentation& segmentation)
-      : least_(view.config.surface_min_share * static_cast<double>(view.valid.count)),
-        wanted_(view.config.surface_min_share > 0.0),
-        segmentation_(segmentation) {}
-
-  void offer(PixelPlane const& plane) {
-    constexpr std::uint8_t kMostSurfaces = 255;
-    if (!wanted_ || static_cast<double>(plane.inliers.count) < least_ || last_ == kMostSurfaces) {
-      return;
-    }
-    Grid<std::uint8_t>& surfaces = segmentation_.surfaces;
-    if (surfaces.empty()) {
-      surfaces = Grid<std::uint8_t>(segmentation_.labels.width(), segmentation_.labels.height());
-    }
-    ++last_;
-    plane.inliers.pixels.for_each([&](std::size_t i) { surfaces[i] = last_; });
-  }
-
-private:
-  double least_;
-  bool wanted_;
-  std::uint8_t last_ = 0;
-  Segmentation& segmentation_;
-};
-
 /// Noise turns normals before it moves points: with an angle to pass, a wall far away is full of
 /// holes. So pixels that nothing has explained join floor or wall where they all but lie in it,
 /// whatever their normals; the planes themselves stay as fitted.
@@ -302,26 +327,26 @@ Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmen
   View const view{frame.cloud_camera,          normals,
                   segmentation.T_world_camera, config,
                   tolerance_of(config),        pixels_with_depth(segmentation.labels)};
-  RemainingPoints remaining(view, unassigned_pixels(segmentation.labels));
-  SurfaceNumbers surfaces(view, segmentation);
+  RemainingPoints remaining(view, segmentation.segments, unassigned_pixels(segmentation.labels));
   std::vector<std::pair<LabelCode, Plane>> found;
   for (int k = 0; k < config.max_planes; ++k) {
-    std::optional<PixelPlane> const plane = remaining.take_largest(
+    std::optional<PixelPlane> plane = remaining.take_largest(
         static_cast<std::uint32_t>(config.seed) + static_cast<std::uint32_t>(k));
     if (!plane) {
       break;
     }
     if (segmentation.floor_at_zero && is_floor(view, *plane)) {
+      remaining.settle(*plane);
       add_floor(view, *plane, segmentation);
       found.emplace_back(kFloor, plane->camera);
     } else if (segmentation.walls.size() < kMaxWalls && is_wall(view, *plane)) {
+      remaining.settle(*plane);
       add_wall(view, *plane, segmentation);
       found.emplace_back(segmentation.walls.back().label, plane->camera);
-    } else {
-      surfaces.offer(*plane);
     }
   }
-  if (view.tolerance.min_cosine > 0.0F) {
+  // Segments have no holes.
+  if (view.tolerance.min_cosine > 0.0F && segmentation.segments.labels.empty()) {
     fill_holes(view, found, segmentation);
   }
   return segmentation;

@@ -48,18 +48,18 @@ struct PlanesConfig {
   /// Walls with fewer pixels, or lower from their foot to their top, stay in the cloud.
   int wall_min_pixels = 4000;
   double wall_min_extent_m = 0.4;
-  /// A plane that is neither, but has so large a share of the pixels with depth, is told apart:
-  /// what stands on a table is not the table. 0 for never, as the thesis has it.
-  double surface_min_share = 0.06;
   /// Spacing of the points that are handed to the belief.
   double point_spacing_m = 0.05;
 };
 FieldList fields(PlanesConfig& config);
 
 /// Labels floor and walls among the unassigned pixels and adds their observations; planes that are
-/// neither keep their pixels unassigned; the large ones are told in `surfaces`. Walls are numbered
-/// from 2000 in the order they are found, largest first. No pixels, no plane or no level
-/// (`floor_at_zero` false: no floor) is no error.
+/// neither keep their pixels unassigned. Walls are numbered from 2000 in the order they are found,
+/// largest first. No pixels, no plane or no level (`floor_at_zero` false: no floor) is no error.
+///
+/// Where there are segments, floor and walls are made of them: one that a plane holds most of
+/// belongs to it as far as it keeps near, and of one that it holds little of it takes nothing. So
+/// the foot of what stands on the floor is not floor, and a carpet's rough edge is.
 Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
                             PlanesConfig const& config);
 

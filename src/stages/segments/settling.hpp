@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/segmentation.hpp"
+
+namespace credo {
+
+/// Gives known objects the segments that are theirs: where `segmentation.objects` hold most of a
+/// segment (kMostlyShare), what of it nobody has joins the one that holds most; where they hold
+/// little of it (kHardlyShare), that little is given back. A pose that is a centimetre off leaves
+/// the rim of a table over, and takes a strip of what stands on it; a segment ends where the
+/// surface does.
+///
+/// `segmentation.segments` and labels have one size; without segments nothing happens. Pixel counts
+/// of the objects become those that they have then.
+[[nodiscard]] Segmentation settle_objects(Segmentation segmentation);
+
+inline constexpr double kMostlyShare = 0.6;
+inline constexpr double kHardlyShare = 0.2;
+
+}  // namespace credo
