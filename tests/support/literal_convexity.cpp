@@ -112,6 +112,15 @@ struct Literal {
         e[p] = std::max(e[p], a + b - 2 * c);
         steep[p] = std::max(steep[p], std::abs(a - b));
       }
+      int far = 0;
+      for (Pixel const o : offsets) {
+        int const a = at(s, {p.u + 2 * o.u, p.v + 2 * o.v});
+        int const b = at(s, {p.u - 2 * o.u, p.v - 2 * o.v});
+        if (a > 0 && b > 0 && std::abs(a - c) < k.reach_units && std::abs(b - c) < k.reach_units)
+          far = std::max(far, a + b - 2 * c);
+      }
+      auto const weight = std::min(std::lround(config.far_weight * 32768), 32767L);
+      e[p] = std::max(e[p], static_cast<int>(2 * far * weight / 65536));
     });
   }
   void walls() {

@@ -79,14 +79,29 @@ public:
     }
   }
 
+  /// Whether most of a plane's pixels are only small parts of their segments: the front edge of a
+  /// table top is no wall.
+  [[nodiscard]] bool is_mere_edge(PixelPlane const& plane) const {
+    if (eligible_.empty()) {
+      return false;
+    }
+    std::vector<std::uint32_t> const held = held_by(plane);
+    std::size_t small = 0;
+    for (std::size_t segment = 1; segment < held.size(); ++segment) {
+      if (held[segment] < kEdgeShare * eligible_[segment]) {
+        small += held[segment];
+      }
+    }
+    return 2 * small > plane.inliers.count;
+  }
+
   /// Fits what a floor or wall has taken to the segments: all of those that it holds most of, as
   /// far as they keep near, and nothing of those that it holds little of.
   void settle(PixelPlane& plane) {
     if (eligible_.empty()) {
       return;
     }
-    std::vector<std::uint32_t> held(eligible_.size(), 0);
-    plane.inliers.pixels.for_each([&](std::size_t i) { ++held[segment_of(i)]; });
+    std::vector<std::uint32_t> const held = held_by(plane);
     auto const share = [&](std::size_t i) {
       std::size_t const segment = segment_of(i);
       return segment == 0
@@ -112,6 +127,7 @@ public:
     plane.inliers.remove(back);
     near.pixels.for_each([&](std::size_t i) { plane.inliers.insert(i); });
     back.pixels.for_each([&](std::size_t i) { pixels_.insert(i); });
+    plane.inliers.pixels.for_each([&](std::size_t i) { --eligible_[segment_of(i)]; });
   }
 
   /// Takes the largest plane out; none once it has fewer pixels than a plane must have.
@@ -141,8 +157,16 @@ public:
 private:
   static constexpr double kMostlyShare = 0.6;
   static constexpr double kHardlyShare = 0.2;
+  static constexpr double kEdgeShare = 0.3;
   /// So many tolerances from the plane is near enough for what is on its segment anyway.
   static constexpr float kNear = 3.0F;
+
+  /// Of each segment, how many pixels a plane has.
+  [[nodiscard]] std::vector<std::uint32_t> held_by(PixelPlane const& plane) const {
+    std::vector<std::uint32_t> held(eligible_.size(), 0);
+    plane.inliers.pixels.for_each([&](std::size_t i) { ++held[segment_of(i)]; });
+    return held;
+  }
 
   [[nodiscard]] std::size_t segment_of(std::size_t pixel) const {
     return static_cast<std::size_t>(segments_.labels[pixel]);
@@ -172,7 +196,7 @@ private:
   View const& view_;
   Segments const& segments_;
   CountedPixels pixels_;
-  /// Of each segment, how many pixels nothing had taken before the first plane. Empty without
+  /// Of each segment, how many pixels neither floor nor wall nor object has taken. Empty without
   /// segments.
   std::vector<std::uint32_t> eligible_;
   PlaneSearchPoints sample_;
@@ -339,7 +363,8 @@ Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmen
       remaining.settle(*plane);
       add_floor(view, *plane, segmentation);
       found.emplace_back(kFloor, plane->camera);
-    } else if (segmentation.walls.size() < kMaxWalls && is_wall(view, *plane)) {
+    } else if (segmentation.walls.size() < kMaxWalls && is_wall(view, *plane) &&
+               !remaining.is_mere_edge(*plane)) {
       remaining.settle(*plane);
       add_wall(view, *plane, segmentation);
       found.emplace_back(segmentation.walls.back().label, plane->camera);

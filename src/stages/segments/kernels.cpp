@@ -89,27 +89,43 @@ void smooth_row_lanes(std::int16_t const* centre, std::ptrdiff_t stride, int rad
   }
 }
 
-void concavity_row_lanes(std::int16_t const* centre, std::array<std::ptrdiff_t, 4> const& offsets,
-                         std::int16_t limit, std::size_t count, std::int16_t* concavity,
-                         std::int16_t* steepness) {
+/// Of one pair: a + b - 2c, and |a - b|; 0 where it does not count.
+struct PairHeights {
+  V16 concavity;
+  V16 steepness;
+};
+HWY_INLINE PairHeights heights_of(V16 c, V16 a, V16 b, V16 most) {
+  V16 const zero = hn::Zero(D16());
+  V16 const to_a = a - c;
+  V16 const to_b = b - c;
+  M16 const near = hn::And(hn::Abs(to_a) < most, hn::Abs(to_b) < most);
+  M16 const valid = hn::And(hn::And(a > zero, b > zero), c > zero);
+  M16 const one_surface = hn::And(near, valid);
+  return {hn::IfThenElseZero(one_surface, to_a + to_b),
+          hn::IfThenElseZero(one_surface, hn::Abs(to_a - to_b))};
+}
+
+void concavity_row_lanes(std::int16_t const* centre, ConcavityPairs const& pairs, std::size_t count,
+                         std::int16_t* concavity, std::int16_t* steepness) {
   D16 const d;
   V16 const zero = hn::Zero(d);
-  V16 const most = constant(limit);
+  V16 const most = constant(pairs.limit);
+  V16 const weight = constant(pairs.far_weight);
   for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
-    V16 const c = load(centre + u);
+    std::int16_t const* const at = centre + u;
+    V16 const c = load(at);
     V16 largest = zero;
+    V16 farther = zero;
     V16 steepest = zero;
-    for (std::ptrdiff_t const offset : offsets) {
-      V16 const a = load(centre + u + offset);
-      V16 const b = load(centre + u - offset);
-      V16 const to_a = a - c;
-      V16 const to_b = b - c;
-      M16 const one_surface = hn::And(hn::And(hn::Abs(to_a) < most, hn::Abs(to_b) < most),
-                                      hn::And(hn::And(a > zero, b > zero), c > zero));
-      largest = hn::Max(largest, hn::IfThenElseZero(one_surface, to_a + to_b));
-      steepest = hn::Max(steepest, hn::IfThenElseZero(one_surface, hn::Abs(to_a - to_b)));
+    for (std::ptrdiff_t const offset : pairs.offsets) {
+      PairHeights const near = heights_of(c, load(at + offset), load(at - offset), most);
+      largest = hn::Max(largest, near.concavity);
+      steepest = hn::Max(steepest, near.steepness);
+      PairHeights const far = heights_of(c, load(at + 2 * offset), load(at - 2 * offset), most);
+      farther = hn::Max(farther, far.concavity);
     }
-    hn::StoreU(largest, d, concavity + u);
+    // Twice the height, so that the upper half of the product is over 2^15.
+    hn::StoreU(hn::Max(largest, hn::MulHigh(farther + farther, weight)), d, concavity + u);
     hn::StoreU(steepest, d, steepness + u);
   }
 }
@@ -210,10 +226,9 @@ void smooth_row(std::int16_t const* centre, std::ptrdiff_t stride, int radius, s
   HWY_DYNAMIC_DISPATCH(smooth_row_lanes)(centre, stride, radius, limit, count, out);
 }
 
-void concavity_row(std::int16_t const* centre, std::array<std::ptrdiff_t, 4> const& offsets,
-                   std::int16_t limit, std::size_t count, std::int16_t* concavity,
-                   std::int16_t* steepness) {
-  HWY_DYNAMIC_DISPATCH(concavity_row_lanes)(centre, offsets, limit, count, concavity, steepness);
+void concavity_row(std::int16_t const* centre, ConcavityPairs const& pairs, std::size_t count,
+                   std::int16_t* concavity, std::int16_t* steepness) {
+  HWY_DYNAMIC_DISPATCH(concavity_row_lanes)(centre, pairs, count, concavity, steepness);
 }
 
 void crease_row(std::int16_t const* disparity, std::ptrdiff_t stride, std::int16_t const* concavity,

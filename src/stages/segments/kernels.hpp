@@ -19,12 +19,21 @@ void disparity_row(float const* depth_m, std::size_t count, float units_m, std::
 void smooth_row(std::int16_t const* centre, std::ptrdiff_t stride, int radius, std::int16_t limit,
                 std::size_t count, std::int16_t* out);
 
+/// Where the pairs of concavity_row lie.
+struct ConcavityPairs {
+  std::array<std::ptrdiff_t, 4> offsets;
+  /// Both differ from the centre by less.
+  std::int16_t limit = 0;
+  /// Of the pairs at twice the offsets, over 2^15.
+  std::int16_t far_weight = 0;
+};
+
 /// Of each pixel c, over the pairs a, b at plus and minus each offset: `concavity` is the largest
-/// a + b - 2c, or 0, `steepness` the largest |a - b|. Pairs count where neither is 0 and both
-/// differ from c by less than `limit`.
-void concavity_row(std::int16_t const* centre, std::array<std::ptrdiff_t, 4> const& offsets,
-                   std::int16_t limit, std::size_t count, std::int16_t* concavity,
-                   std::int16_t* steepness);
+/// a + b - 2c, or 0, `steepness` the largest |a - b|. Pairs count where neither is 0 and both are
+/// within the limit. At twice the offsets concavity is weighted, rounded down, and steepness left
+/// out.
+void concavity_row(std::int16_t const* centre, ConcavityPairs const& pairs, std::size_t count,
+                   std::int16_t* concavity, std::int16_t* steepness);
 
 /// `wall`: 1 where valid and concave by more than `crease` plus slope / 2^16 of the steepness,
 /// rounded down. `solid`: 1 where valid, no wall, and none of the four neighbours is valid and

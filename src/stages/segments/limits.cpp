@@ -27,6 +27,8 @@ Limits limits_for(double focal_px, SegmentsConfig const& config) {
   limits.reach_px = length_px(config.reach_px, kMaxReach_px);
   limits.diagonal_px = length_px(config.reach_px * std::sqrt(0.5), kMaxReach_px);
   limits.reach = units(config.reach_quanta);
+  limits.far_weight =
+      static_cast<std::int16_t>(std::min(std::lround(config.far_weight * 32768.0), 32767L));
   limits.crease = units(config.crease_quanta);
   limits.crease_noise = config.crease_noise;
   // The steepness is a difference across two reaches.

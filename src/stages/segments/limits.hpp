@@ -25,6 +25,8 @@ struct Limits {
   int reach_px = 0;
   int diagonal_px = 0;
   std::int16_t reach = 0;
+  /// Of concavity over twice the reach, over 2^15.
+  std::int16_t far_weight = 0;
   int crease = 0;
   double crease_noise = 0.0;
   /// Of a steepness in units between points two reaches apart, the part that a crease must exceed;

@@ -12,7 +12,7 @@ template <typename T>
 class PaddedGrid {
 public:
   /// Rows and columns to each side; columns also hold what a vector writes beyond the last pixel.
-  static constexpr int kMargin = 64;
+  static constexpr int kMargin = 96;
 
   PaddedGrid(int width, int height)
       : width_(width),

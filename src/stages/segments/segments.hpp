@@ -21,6 +21,9 @@ struct SegmentsConfig {
   /// Concavity is measured between pixels so far apart, on surfaces that rise by less.
   int reach_px = 6;
   double reach_quanta = 15.0;
+  /// Over twice that distance concavity counts so much: where floor and wall meet, it grows with
+  /// the distance, and over the shorter is no more than noise. 0 leaves it out.
+  double far_weight = 0.65;
   /// A crease is as concave as this, or as this many times the frame's own noise, if that is more,
   double crease_quanta = 2.25;
   double crease_noise = 1.4;

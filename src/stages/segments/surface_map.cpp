@@ -84,12 +84,12 @@ SurfaceMap map_surfaces(Grid<float> const& depth_m, Limits const& limits) {
   Heights steepness(width, height);
   std::ptrdiff_t const reach = limits.reach_px;
   std::ptrdiff_t const diagonal = limits.diagonal_px;
-  std::array<std::ptrdiff_t, 4> const offsets = {reach, reach * smooth.stride(),
-                                                 diagonal * (smooth.stride() + 1),
-                                                 diagonal * (1 - smooth.stride())};
+  ConcavityPairs const pairs{{reach, reach * smooth.stride(), diagonal * (smooth.stride() + 1),
+                              diagonal * (1 - smooth.stride())},
+                             limits.reach,
+                             limits.far_weight};
   for (int v = 0; v < height; ++v) {
-    concavity_row(smooth.row(v), offsets, limits.reach, count, map.concavity.row(v),
-                  steepness.row(v));
+    concavity_row(smooth.row(v), pairs, count, map.concavity.row(v), steepness.row(v));
     map.concavity.end_row(v);
   }
   int const noise = noise_of(map.disparity, map.concavity);

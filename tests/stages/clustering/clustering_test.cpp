@@ -108,25 +108,46 @@ TEST(ClusterStuff, LeavesWhatIsExplained) {
   EXPECT_EQ(result.stuff[0].pixel_count, 50U);
 }
 
-TEST(ClusterStuff, DoesNotJoinAcrossTheBordersOfSurfaces) {
+/// Two columns of segments over a board that is one cluster without: 5 left of column 10, 2 right
+/// of it, and none in the last row.
+Segmentation with_segments(Frame const& frame) {
+  Segmentation before = unassigned_segmentation(frame, Se3(), kPriorFrame);
+  Grid<std::int32_t>& segments = before.segments.labels;
+  segments = Grid<std::int32_t>(20, 10, 2);
+  for (int v = 0; v < 10; ++v) {
+    std::ranges::fill(segments.row(v).first(10), 5);
+  }
+  std::ranges::fill(segments.row(9), 0);
+  before.segments.pixel_counts = {0, 90, 0, 0, 90};
+  return before;
+}
+
+TEST(ClusterStuff, IsOneForEachSegment) {
   Frame const frame = frame_of(20, 10, std::vector<float>(20, 1.0F));
   NormalMap const normals = facing_normals(frame);
   ASSERT_THAT(cluster(frame, normals).stuff, SizeIs(1));
-  Segmentation before = unassigned_segmentation(frame, Se3(), kPriorFrame);
-  before.surfaces = Grid<std::uint8_t>(20, 10);
-  for (int v = 4; v < 10; ++v) {
-    std::ranges::fill(before.surfaces.row(v).subspan(5, 10), std::uint8_t{2});
+  // Normals have no part in it.
+  Segmentation const result =
+      cluster_stuff(frame, NormalMap(20, 10), with_segments(frame), {.min_pixels = 1});
+  ASSERT_THAT(result.stuff, SizeIs(2));
+  EXPECT_EQ(result.stuff[0].pixel_count, 90U);
+  EXPECT_EQ(result.stuff[1].pixel_count, 90U);
+  EXPECT_EQ((result.labels[{9, 0}]), kFirstStuff) << "by first pixels, whatever their numbers";
+  EXPECT_EQ((result.labels[{10, 0}]), kFirstStuff + 1);
+  EXPECT_THAT(result.labels.row(9), Each(kUnassigned)) << "no segment";
+}
+
+TEST(ClusterStuff, WhatIsLeftOfASegmentStaysOneThing) {
+  Frame const frame = frame_of(20, 10, std::vector<float>(20, 1.0F));
+  Segmentation before = with_segments(frame);
+  for (int v = 0; v < 10; ++v) {
+    std::ranges::fill(before.labels.row(v).subspan(3, 4), kFloor);
   }
-  std::ranges::fill(before.surfaces.row(9).subspan(15), std::uint8_t{1});
-  Segmentation const result = cluster_stuff(frame, normals, before, {.min_pixels = 1});
-  // Numbered by their first pixels, whatever the surfaces' numbers.
-  ASSERT_THAT(result.stuff, SizeIs(3));
-  EXPECT_EQ(result.stuff[0].pixel_count, 135U);
-  EXPECT_EQ(result.stuff[1].pixel_count, 60U);
-  EXPECT_EQ(result.stuff[2].pixel_count, 5U);
-  EXPECT_EQ((result.labels[{7, 6}]), kFirstStuff + 1);
-  EXPECT_EQ((result.labels[{16, 9}]), kFirstStuff + 2);
-  EXPECT_EQ((result.labels[{0, 9}]), kFirstStuff);
+  Segmentation const result = cluster_stuff(frame, NormalMap(20, 10), before, {.min_pixels = 1});
+  ASSERT_THAT(result.stuff, SizeIs(2));
+  EXPECT_EQ(result.stuff[0].pixel_count, 54U);
+  EXPECT_EQ((result.labels[{0, 0}]), (result.labels[{8, 0}]));
+  EXPECT_THAT(cluster_stuff(frame, NormalMap(20, 10), before, {.min_pixels = 55}).stuff, SizeIs(1));
 }
 
 TEST(ClusterStuff, IgnoresSmallClusters) {

@@ -26,7 +26,6 @@ PlanesConfig thesis_planes() {
   config.max_planes = 200;
   config.sampling = PlaneSampling::kThreePoints;
   config.floor_max_height_m = 0.0;
-  config.surface_min_share = 0.0;
   config.wall_max_points_beyond = 50;
   config.wall_max_share_beyond = 0.0;
   config.wall_min_pixels = 0;
@@ -158,26 +157,6 @@ INSTANTIATE_TEST_SUITE_P(Both, PlanesPresets, ::testing::Values(thesis_planes(),
                          [](auto const& preset) {
                            return preset.index == 0 ? "Thesis" : "Default";
                          });
-
-TEST(Surfaces, AreLargePlanesThatAreNeitherFloorNorWall) {
-  Shot const shot = shot_of(room(), camera_looking_along_y(1.3, 0.4));
-  EXPECT_TRUE(planes_of(shot, thesis_planes()).surfaces.empty());
-  Segmentation const result = planes_of(shot, default_planes());
-  ASSERT_TRUE(result.surfaces.same_size(result.labels));
-  std::size_t table = 0;
-  std::size_t missing = 0;
-  for (std::size_t i = 0; i < result.labels.size(); ++i) {
-    bool const on_table =
-        shot.frame.cloud_camera.valid(i) && std::abs(height_m(shot, i) - 0.72) < 0.001;
-    table += on_table ? 1 : 0;
-    missing += on_table && result.surfaces[i] == 0 ? 1 : 0;
-    // Only the table top is as large as that.
-    ASSERT_TRUE(on_table || result.surfaces[i] == 0) << "pixel " << i;
-  }
-  EXPECT_GT(table, result.labels.size() / 16);
-  // Pixels on its edges may be taken for the sides.
-  EXPECT_LT(missing, table / 20);
-}
 
 /// Whether a wall 2 m away is one with a niche of `side_px` squared pixels in it, 40 cm deep, and a
 /// box before it: points lie on both of its sides.

@@ -1,0 +1,124 @@
+// Floor and walls made of segments that are known to be right.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "stages/planes/planes.hpp"
+#include "support/world_scene.hpp"
+
+namespace credo::test {
+namespace {
+
+/// The pictures here have a quarter of the pixels that the default is made for.
+PlanesConfig small_planes() {
+  PlanesConfig config;
+  config.min_plane_pixels = 400;
+  config.wall_min_pixels = 1000;
+  return config;
+}
+
+/// World position of a pixel.
+Eigen::Vector3d position_m(Shot const& shot, std::size_t i) {
+  return shot.T_world_camera * shot.frame.cloud_camera.at(i).cast<double>();
+}
+
+/// Planes of a shot whose pixels belong to the segments that `segment_of` tells by their position.
+Segmentation planes_of(Shot const& shot,
+                       std::function<std::int32_t(Eigen::Vector3d const&)> const& segment_of) {
+  Segmentation segmentation = shot.unassigned();
+  Grid<std::int32_t>& labels = segmentation.segments.labels;
+  labels = Grid<std::int32_t>(shot.frame.cloud_camera.width(), shot.frame.cloud_camera.height());
+  segmentation.segments.pixel_counts.assign(8, 0);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (shot.frame.cloud_camera.valid(i)) {
+      labels[i] = segment_of(position_m(shot, i));
+      ++segmentation.segments.pixel_counts[static_cast<std::size_t>(labels[i] - 1)];
+    }
+  }
+  return extract_planes(shot.frame, shot.normals, segmentation, small_planes());
+}
+
+bool is_on_floor(Eigen::Vector3d const& p) {
+  return p.z() < 1e-3;
+}
+
+TEST(PlanesOfSegments, TheFootOfAThingIsNotFloor) {
+  // Seen from above, a mat 1 cm thick lies within the floor's tolerance, and its top faces up.
+  Shot const shot = shot_of(WorldScene().with_floor().with_box({-0.3, 1.2, 0.0}, {0.3, 1.8, 0.01}),
+                            camera_looking_along_y(1.3, 0.6));
+  Segmentation const result =
+      planes_of(shot, [](Eigen::Vector3d const& p) { return is_on_floor(p) ? 1 : 2; });
+  ASSERT_TRUE(result.floor);
+  std::size_t mat = 0;
+  for (std::size_t i = 0; i < result.labels.size(); ++i) {
+    if (shot.frame.cloud_camera.valid(i)) {
+      bool const on_floor = is_on_floor(position_m(shot, i));
+      mat += on_floor ? 0 : 1;
+      ASSERT_EQ(result.labels[i], on_floor ? kFloor : kUnassigned) << i;
+    }
+  }
+  EXPECT_GT(mat, 1000U);
+  Segmentation const without =
+      extract_planes(shot.frame, shot.normals, shot.unassigned(), small_planes());
+  EXPECT_GT(without.floor->pixel_count, result.floor->pixel_count + mat / 2);
+}
+
+TEST(PlanesOfSegments, WhatIsFloorByItsSegmentIsFloorAlsoWhereItIsRough) {
+  Shot shot = shot_of(WorldScene().with_floor(), camera_looking_along_y(1.3, 0.6));
+  // Every tenth pixel 2.5 cm too near: beyond the tolerance, within three.
+  for (std::size_t i = 0; i < shot.frame.cloud_camera.size(); i += 10) {
+    if (shot.frame.cloud_camera.valid(i)) {
+      Eigen::Vector3f const p = shot.frame.cloud_camera.at(i);
+      shot.frame.cloud_camera.set(i, p * (1.0F - 0.04F / p.norm()));
+    }
+  }
+  Segmentation const result = planes_of(shot, [](Eigen::Vector3d const&) { return 1; });
+  std::size_t missing = 0;
+  for (std::size_t i = 0; i < result.labels.size(); ++i) {
+    missing += result.labels[i] == kUnassigned ? 1 : 0;
+  }
+  EXPECT_EQ(missing, 0U);
+  EXPECT_LT(extract_planes(shot.frame, shot.normals, shot.unassigned(), small_planes())
+                .floor->pixel_count,
+            result.floor->pixel_count);
+}
+
+TEST(PlanesOfSegments, TheFrontOfATableIsNoWall) {
+  // Closed to the floor, and as wide as the picture: nothing is seen beyond its front's plane but
+  // its own top.
+  Shot const shot = shot_of(WorldScene().with_box({-2.0, 1.0, 0.0}, {2.0, 1.01, 0.72}),
+                            camera_looking_along_y(0.9, 0.3));
+  auto const front_alone = planes_of(shot, [](Eigen::Vector3d const&) { return 1; });
+  ASSERT_EQ(front_alone.walls.size(), 1U) << "by itself it is one";
+  Shot const table = shot_of(WorldScene().with_box({-2.0, 1.0, 0.3}, {2.0, 2.6, 0.72}),
+                             camera_looking_along_y(1.6, 0.7));
+  EXPECT_TRUE(planes_of(table, [](Eigen::Vector3d const&) { return 1; }).walls.empty());
+}
+
+TEST(PlanesOfSegments, WallsThatShareASegmentAreBothFound) {
+  // The camera looks into a corner whose crease nobody has seen.
+  WorldScene scene = WorldScene().with_wall(3.0);
+  scene.with_box({1.0, -5.0, 0.0}, {1.1, 3.0, 2.6});
+  Shot const shot = shot_of(scene, camera_looking_along_y(1.3, 0.1));
+  EXPECT_EQ(planes_of(shot, [](Eigen::Vector3d const&) { return 1; }).walls.size(), 2U);
+}
+
+TEST(PlanesOfSegments, ObservationsCountWhatTheyHaveInTheEnd) {
+  Shot const shot =
+      shot_of(WorldScene().with_floor().with_wall(3.0), camera_looking_along_y(1.3, 0.4));
+  Segmentation const result =
+      planes_of(shot, [](Eigen::Vector3d const& p) { return is_on_floor(p) ? 1 : 2; });
+  std::size_t floor = 0;
+  std::size_t wall = 0;
+  for (LabelCode const label : result.labels) {
+    floor += label == kFloor ? 1 : 0;
+    wall += is_wall(label) ? 1 : 0;
+  }
+  ASSERT_EQ(result.walls.size(), 1U);
+  EXPECT_EQ(result.floor->pixel_count, floor);
+  EXPECT_EQ(result.walls[0].pixel_count, wall);
+}
+
+}  // namespace
+}  // namespace credo::test
