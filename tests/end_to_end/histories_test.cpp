@@ -152,8 +152,12 @@ TEST(Histories, AMinuteOfSightIsNotBelievedForAnotherMinute) {
   int const box = last_frame(beliefs, [](BeliefPtr const& belief) {
     return probability_of(belief->objects[1].log_odds) > 0.15;
   });
-  int const stuff =
-      last_frame(beliefs, [](BeliefPtr const& belief) { return !belief->stuff.empty(); });
+  // In so small a picture the wall has too few pixels for one, and stays stuff.
+  int const stuff = last_frame(beliefs, [](BeliefPtr const& belief) {
+    return std::ranges::any_of(belief->stuff, [](StuffBelief const& piece) {
+      return (piece.latest().centroid_world - Eigen::Vector3f(1.8F, -1.2F, 0.25F)).norm() < 0.3F;
+    });
+  });
   EXPECT_GE(box, kGone) << "believed until it went";
   EXPECT_LT(box, kGone + 2 * kSecond);
   EXPECT_GE(stuff, kGone);

@@ -207,9 +207,9 @@ TEST(KnownObjects, AMistypedTypeIsToldAndNotLost) {
   EXPECT_THAT(ended.out, HasSubstr("1 detections taken, 1 refused (1 of no object)"));
 }
 
-// Thesis 4.4: "points on the table that were slightly outside of the detected table pose".
-TEST(KnownObjects, WhatALowTableLeavesOverIsStuffAndGoesAgain) {
-  TempFolder const folder;
+/// The beliefs of nine looks at a table that is detected 3.5 cm too low in the first.
+std::vector<json> beliefs_with_a_low_table(TempFolder const& folder,
+                                           std::vector<std::string> const& more) {
   Scene const scene = project_scene("box-on-table");
   Recording recording(folder / "low.jsonl", scene);
   for (int frame = 0; frame < kFrames; ++frame) {
@@ -217,11 +217,19 @@ TEST(KnownObjects, WhatALowTableLeavesOverIsStuffAndGoesAgain) {
   }
   recording.finish();
   fs::path const out = folder / "out";
-  Ended const ended =
-      credo(with(box_on_table(out, project_prior("box-on-table")), recorded(folder / "low.jsonl")));
-  ASSERT_EQ(ended.code, 0) << ended.err;
+  Ended const ended = credo(
+      with(with(box_on_table(out, project_prior("box-on-table")), recorded(folder / "low.jsonl")),
+           more));
+  EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("18 detections taken, 0 refused"));
-  std::vector<json> const lines = beliefs(out);
+  return beliefs(out);
+}
+
+// Thesis 4.4: "points on the table that were slightly outside of the detected table pose".
+TEST(KnownObjects, WhatALowTableLeavesOverIsStuffAndGoesAgainWithoutSegments) {
+  TempFolder const folder;
+  std::vector<json> const lines =
+      beliefs_with_a_low_table(folder, {"--set", "segments.enabled=false"});
   ASSERT_EQ(lines.size(), kFrames);
   std::size_t top_points = 0;
   for (json const& stuff : lines[0]["stuff"]) {

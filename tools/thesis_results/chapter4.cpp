@@ -37,7 +37,8 @@ constexpr char const* kBeyondCabinet =
     "once the camera sees round its corner, and at 3 m the tails of a Kinect's noise "
     "([thesis-preset.md](thesis-preset.md)).";
 constexpr char const* kBeyondCabinetByDefault =
-    "a wall may have 3 % of its points beyond its plane, and the cabinet's front has fewer: it is a "
+    "a wall may have 3 % of its points beyond its plane, and the cabinet's front has fewer: it is "
+    "a "
     "wall as soon as it is seen.";
 
 std::vector<StuffTrack> tracks_of(SceneRun const& run, std::string const& what) {

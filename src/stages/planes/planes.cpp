@@ -15,6 +15,13 @@
 namespace credo {
 namespace {
 
+// Of a segment's pixels: from the first on it is a plane's, up to the second the plane takes none
+// of it; below the third its pixels are the edge of something else.
+constexpr double kMostlyShare = 0.6;
+constexpr double kHardlyShare = 0.2;
+/// So many tolerances from the plane is near enough for what is on its segment anyway.
+constexpr float kNear = 3.0F;
+
 /// What every step looks at. Planes are searched for where the depths are: in the camera frame.
 struct View {
   OrganizedCloud const& cloud;
@@ -79,22 +86,6 @@ public:
     }
   }
 
-  /// Whether most of a plane's pixels are only small parts of their segments: the front edge of a
-  /// table top is no wall.
-  [[nodiscard]] bool is_mere_edge(PixelPlane const& plane) const {
-    if (eligible_.empty()) {
-      return false;
-    }
-    std::vector<std::uint32_t> const held = held_by(plane);
-    std::size_t small = 0;
-    for (std::size_t segment = 1; segment < held.size(); ++segment) {
-      if (held[segment] < kEdgeShare * eligible_[segment]) {
-        small += held[segment];
-      }
-    }
-    return 2 * small > plane.inliers.count;
-  }
-
   /// Fits what a floor or wall has taken to the segments: all of those that it holds most of, as
   /// far as they keep near, and nothing of those that it holds little of.
   void settle(PixelPlane& plane) {
@@ -155,12 +146,6 @@ public:
   }
 
 private:
-  static constexpr double kMostlyShare = 0.6;
-  static constexpr double kHardlyShare = 0.2;
-  static constexpr double kEdgeShare = 0.3;
-  /// So many tolerances from the plane is near enough for what is on its segment anyway.
-  static constexpr float kNear = 3.0F;
-
   /// Of each segment, how many pixels a plane has.
   [[nodiscard]] std::vector<std::uint32_t> held_by(PixelPlane const& plane) const {
     std::vector<std::uint32_t> held(eligible_.size(), 0);
@@ -268,7 +253,7 @@ double vertical_extent_m(View const& view, PixelPlane const& plane) {
   return static_cast<double>(heights[static_cast<std::size_t>(top)] - low_m);
 }
 
-/// Thesis 3.2: vertical, with nearly nothing beyond it on one of its sides.
+/// Thesis 3.2: vertical, with nearly nothing beyond it.
 bool is_wall(View const& view, PixelPlane const& plane) {
   PlanesConfig const& config = view.config;
   Eigen::Vector3d const n = plane.world.normal.cwiseAbs();
@@ -281,7 +266,12 @@ bool is_wall(View const& view, PixelPlane const& plane) {
   double const allowed =
       std::max(static_cast<double>(config.wall_max_points_beyond),
                config.wall_max_share_beyond * static_cast<double>(plane.inliers.count));
-  return static_cast<double>(std::min(sides.front, sides.back)) <= allowed &&
+  // The camera is at the origin.
+  bool const faces_camera = plane.camera.signed_distance_m(Eigen::Vector3d::Zero()) >= 0.0;
+  std::size_t const behind = faces_camera ? sides.back : sides.front;
+  std::size_t const beyond =
+      config.wall_beyond == WallBeyond::kBehind ? behind : std::min(sides.front, sides.back);
+  return static_cast<double>(beyond) <= allowed &&
          vertical_extent_m(view, plane) >= config.wall_min_extent_m;
 }
 
@@ -324,9 +314,35 @@ void add_wall(View const& view, PixelPlane const& plane, Segmentation& segmentat
   segmentation.walls.push_back(std::move(wall));
 }
 
+/// Of some pixels, those in segments that nothing has, or that these are most of; of all without
+/// segments.
+CountedPixels whole_segments(CountedPixels pixels, CountedPixels const& unassigned,
+                             Segments const& segments) {
+  if (segments.labels.empty()) {
+    return pixels;
+  }
+  auto const segment_of = [&](std::size_t i) {
+    return static_cast<std::size_t>(segments.labels[i]);
+  };
+  std::vector<std::uint32_t> all(segments.pixel_counts.size() + 1, 0);
+  std::vector<std::uint32_t> some(all.size(), 0);
+  unassigned.pixels.for_each([&](std::size_t i) { ++all[segment_of(i)]; });
+  pixels.pixels.for_each([&](std::size_t i) { ++some[segment_of(i)]; });
+  CountedPixels others{PixelSet(segments.labels.size()), 0};
+  pixels.pixels.for_each([&](std::size_t i) {
+    std::size_t const segment = segment_of(i);
+    if (segment != 0 && some[segment] < kMostlyShare * all[segment]) {
+      others.insert(i);
+    }
+  });
+  pixels.remove(others);
+  return pixels;
+}
+
 /// Noise turns normals before it moves points: with an angle to pass, a wall far away is full of
-/// holes. So pixels that nothing has explained join floor or wall where they all but lie in it,
-/// whatever their normals; the planes themselves stay as fitted.
+/// holes. And a plane that was neither floor nor wall may have taken some of theirs. So pixels that
+/// nothing has explained join floor or wall where they all but lie in it, whatever their normals;
+/// the planes themselves stay as fitted.
 void fill_holes(View const& view, std::vector<std::pair<LabelCode, Plane>> const& found,
                 Segmentation& segmentation) {
   constexpr float kAllBut = 0.5F;
@@ -336,6 +352,7 @@ void fill_holes(View const& view, std::vector<std::pair<LabelCode, Plane>> const
   for (auto const& [label, plane_camera] : found) {
     CountedPixels joining =
         plane_inliers(plane_camera, view.cloud, view.normals, unassigned.pixels, close);
+    joining = whole_segments(std::move(joining), unassigned, segmentation.segments);
     if (label == kFloor) {
       joining = low_pixels(view, std::move(joining));
     }
@@ -363,15 +380,13 @@ Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmen
       remaining.settle(*plane);
       add_floor(view, *plane, segmentation);
       found.emplace_back(kFloor, plane->camera);
-    } else if (segmentation.walls.size() < kMaxWalls && is_wall(view, *plane) &&
-               !remaining.is_mere_edge(*plane)) {
+    } else if (segmentation.walls.size() < kMaxWalls && is_wall(view, *plane)) {
       remaining.settle(*plane);
       add_wall(view, *plane, segmentation);
       found.emplace_back(segmentation.walls.back().label, plane->camera);
     }
   }
-  // Segments have no holes.
-  if (view.tolerance.min_cosine > 0.0F && segmentation.segments.labels.empty()) {
+  if (view.tolerance.min_cosine > 0.0F) {
     fill_holes(view, found, segmentation);
   }
   return segmentation;

@@ -10,6 +10,8 @@
 
 namespace credo {
 
+enum class WallBeyond : std::uint8_t { kEitherSide, kBehind };
+
 /// Floor and walls (thesis 3.2 and algorithm 2). The thesis' numbers are marked T; it leaves the
 /// sensor's noise and the points' normals out of account.
 struct PlanesConfig {
@@ -41,7 +43,10 @@ struct PlanesConfig {
   double wall_max_normal_z = 0.1;
   /// ... |n_x| or |n_y| above this (T: 0.5) ...
   double wall_min_normal_xy = 0.5;
-  /// ... and at most so many points beyond it (T: 50), or so large a share of the plane's own
+  /// ... with nothing beyond it: on one of its sides, whichever (T), or on that which faces away
+  /// from the camera; before the front edge of a table, too, there may be nothing ...
+  WallBeyond wall_beyond = WallBeyond::kBehind;
+  /// ... but at most so many points (T: 50), or so large a share of the plane's own
   /// pixels.
   int wall_max_points_beyond = 50;
   double wall_max_share_beyond = 0.03;

@@ -26,6 +26,7 @@ PlanesConfig thesis_planes() {
   config.max_planes = 200;
   config.sampling = PlaneSampling::kThreePoints;
   config.floor_max_height_m = 0.0;
+  config.wall_beyond = WallBeyond::kEitherSide;
   config.wall_max_points_beyond = 50;
   config.wall_max_share_beyond = 0.0;
   config.wall_min_pixels = 0;
@@ -157,6 +158,16 @@ INSTANTIATE_TEST_SUITE_P(Both, PlanesPresets, ::testing::Values(thesis_planes(),
                          [](auto const& preset) {
                            return preset.index == 0 ? "Thesis" : "Default";
                          });
+
+TEST(Walls, HaveNothingBehindThemByDefault) {
+  // Before the front of a table there is nothing, but behind it is its top.
+  Shot const shot = shot_of(WorldScene().with_box({-2.0, 1.0, 0.3}, {2.0, 3.5, 0.72}),
+                            camera_looking_along_y(2.2, 0.9));
+  PlanesConfig config = default_planes();
+  EXPECT_TRUE(planes_of(shot, config).walls.empty());
+  config.wall_beyond = WallBeyond::kEitherSide;
+  EXPECT_EQ(planes_of(shot, config).walls.size(), 1U);
+}
 
 /// Whether a wall 2 m away is one with a niche of `side_px` squared pixels in it, 40 cm deep, and a
 /// box before it: points lie on both of its sides.

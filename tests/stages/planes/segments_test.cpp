@@ -85,16 +85,6 @@ TEST(PlanesOfSegments, WhatIsFloorByItsSegmentIsFloorAlsoWhereItIsRough) {
             result.floor->pixel_count);
 }
 
-TEST(PlanesOfSegments, TheFrontOfATableIsNoWall) {
-  // Nothing stands before it, and it is 42 cm high, but most of its segment is the top.
-  Shot const shot = shot_of(WorldScene().with_box({-2.0, 1.0, 0.3}, {2.0, 3.5, 0.72}),
-                            camera_looking_along_y(2.2, 0.9));
-  EXPECT_EQ(
-      extract_planes(shot.frame, shot.normals, shot.unassigned(), small_planes()).walls.size(), 1U)
-      << "by itself it is one";
-  EXPECT_TRUE(planes_of(shot, [](Eigen::Vector3d const&) { return 1; }).walls.empty());
-}
-
 TEST(PlanesOfSegments, WallsThatShareASegmentAreBothFound) {
   // The camera looks into a corner whose crease nobody has seen.
   WorldScene scene = WorldScene().with_wall(3.0);
