@@ -103,7 +103,7 @@ SurfaceMap map_surfaces(Grid<float> const& depth_m, Limits const& limits) {
     map.wall.end_row(v);
     map.thickness.end_row(v);
   }
-  for (std::uint8_t const level : {1, 2, 3}) {
+  for (std::uint8_t level = 1; level <= 3; ++level) {
     thicken(map.thickness, level);
   }
   return map;
