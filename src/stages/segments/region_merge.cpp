@@ -8,7 +8,6 @@
 #include <optional>
 #include <queue>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 namespace credo::segments {
@@ -77,27 +76,31 @@ private:
     }
   }
 
+  [[nodiscard]] bool is_small(std::int32_t label) { return size(label) < limits_.small_px; }
+
+  /// Looks at the borders of `from` alone, so that a table takes thousands of crumbs in without
+  /// going through all of its borders for each of them.
   void join(std::int32_t into, std::int32_t from) {
+    bool const was_small = is_small(into);
     size(into) += size(from);
     root_[static_cast<std::size_t>(from)] = into;
     at(into).erase(from);
     at(from).erase(into);
     for (auto const& [other, border] : at(from)) {
-      Border moved = border;
-      moved.low = std::min(into, other);
-      moved.high = std::max(into, other);
-      if (auto const [known, is_new] = at(into).try_emplace(other, moved); !is_new) {
-        known->second.pairs += border.pairs;
-        known->second.parted += border.parted;
-        known->second.samples += border.samples;
-        known->second.unlike += border.unlike;
-      }
       at(other).erase(from);
+      Border& joined = at(into).try_emplace(other, Border{}).first->second;
+      joined = {std::min(into, other),           std::max(into, other),
+                joined.pairs + border.pairs,     joined.parted + border.parted,
+                joined.samples + border.samples, joined.unlike + border.unlike};
+      at(other).insert_or_assign(into, joined);
+      offer(joined);
     }
     at(from).clear();
-    for (auto const& [other, border] : at(into)) {
-      at(other).insert_or_assign(into, border);
-      offer(border);
+    if (was_small && !is_small(into)) {
+      // All of its borders are stronger than they were.
+      for (auto const& [other, border] : at(into)) {
+        offer(border);
+      }
     }
   }
 
