@@ -249,7 +249,7 @@ TEST(SharpenBorders, MovesABorderToItsStep) {
   SurfaceMap const map = map_of(step);
   PartLabels labels = halves(kMiddle + 1);
   RegionGraph const graph = region_graph(map, labels, limits());
-  sharpen_borders(map, graph, limits(), labels);
+  sharpen_borders(map, graph, {0, 1, 2}, limits(), labels);
   // There is a sample in each third row, up to the last but two.
   for (int v = 0; v + 1 < kHeight; ++v) {
     EXPECT_EQ(labels.row(v)[kMiddle - 1], 1);
@@ -257,15 +257,23 @@ TEST(SharpenBorders, MovesABorderToItsStep) {
   }
 }
 
+TEST(SharpenBorders, TakesJoinedPartsAsOne) {
+  SurfaceMap const map = map_of(step);
+  PartLabels labels = halves(kMiddle + 1);
+  RegionGraph const graph = region_graph(map, labels, limits());
+  sharpen_borders(map, graph, {0, 1, 1}, limits(), labels);
+  EXPECT_EQ(labels.row(30)[kMiddle], 1);
+}
+
 TEST(SharpenBorders, LeavesSmallPartsAndSmoothSurfaces) {
   SurfaceMap const map = map_of(step);
   PartLabels labels = halves(kMiddle + 1);
   RegionGraph graph = region_graph(map, labels, limits());
   graph.sizes[2] = 399;
-  sharpen_borders(map, graph, limits(), labels);
+  sharpen_borders(map, graph, {0, 1, 2}, limits(), labels);
   EXPECT_EQ(labels.row(30)[kMiddle], 1);
   SurfaceMap const smooth = map_of(wall);
-  sharpen_borders(smooth, region_graph(smooth, labels, limits()), limits(), labels);
+  sharpen_borders(smooth, region_graph(smooth, labels, limits()), {0, 1, 2}, limits(), labels);
   EXPECT_EQ(labels.row(30)[kMiddle], 1);
 }
 
