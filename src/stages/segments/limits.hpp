@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "stages/segments/padded_grid.hpp"
 #include "stages/segments/segments.hpp"
 
 namespace credo::segments {
@@ -14,6 +15,7 @@ inline constexpr int kUnitsPerQuantum = 16;
 /// radius, of differences of up to 7 quanta, fit sixteen bits.
 inline constexpr int kMaxSmooth_px = 8;
 inline constexpr int kMaxReach_px = 32;
+static_assert(2 * kMaxReach_px <= PaddedGrid<int>::kMarginRows);
 
 /// The config for one camera: pixels scaled to its focal length, heights in units.
 struct Limits {

@@ -25,17 +25,26 @@ struct DiscSums {
   std::int64_t vd = 0;
   std::int64_t dd = 0;
 
-  void add(std::int64_t pu, std::int64_t pv, std::int64_t pd) {
+  void add(std::int64_t pu, std::int64_t pd) {
     ++n;
     u += pu;
-    v += pv;
     d += pd;
     uu += pu * pu;
-    uv += pu * pv;
-    vv += pv * pv;
     ud += pu * pd;
-    vd += pv * pd;
     dd += pd * pd;
+  }
+  /// What has been added to `row`, all of it at pv.
+  void add_row(DiscSums const& row, std::int64_t pv) {
+    n += row.n;
+    u += row.u;
+    v += pv * row.n;
+    d += row.d;
+    uu += row.uu;
+    uv += pv * row.u;
+    vv += pv * pv * row.n;
+    ud += row.ud;
+    vd += pv * row.d;
+    dd += row.dd;
   }
 };
 
@@ -84,11 +93,14 @@ class Builder {
 public:
   Builder(SurfaceMap const& map, PartLabels const& labels, Limits const& limits)
       : map_(map), labels_(labels), limits_(limits) {
-    for (int v = -limits.disc_px; v <= limits.disc_px; v += 2) {
-      for (int u = -limits.disc_px; u <= limits.disc_px; u += 2) {
-        if (u * u + v * v <= limits.disc_px * limits.disc_px) {
-          disc_.push_back({u, v});
-        }
+    int const radius = limits.disc_px;
+    for (int v = -radius; v <= radius; v += 2) {
+      int u = -radius;
+      while (u <= 0 && u * u + v * v > radius * radius) {
+        u += 2;
+      }
+      if (u <= 0) {
+        disc_.push_back({u, v});
       }
     }
   }
@@ -181,17 +193,26 @@ private:
     std::int32_t const b = labels[at + step];
     DiscSums sums_a;
     DiscSums sums_b;
-    for (Pixel const offset : disc_) {
-      if (u + offset.u < 0 || u + offset.u >= map_.width() || v + offset.v < 0 ||
-          v + offset.v >= map_.height()) {
+    for (auto const [begin, dv] : disc_) {
+      if (v + dv < 0 || v + dv >= map_.height()) {
         continue;
       }
-      std::ptrdiff_t const p = at + offset.v * labels_.stride() + offset.u;
-      if (labels[p] == a) {
-        sums_a.add(offset.u, offset.v, disparity[p]);
-      } else if (labels[p] == b) {
-        sums_b.add(offset.u, offset.v, disparity[p]);
+      std::ptrdiff_t const row = at + dv * labels_.stride();
+      // Every second pixel, whatever the image cuts off.
+      int const first = u + begin < 0 ? begin + (1 - u - begin) / 2 * 2 : begin;
+      int const last = std::min(-begin, map_.width() - 1 - u);
+      DiscSums row_a;
+      DiscSums row_b;
+      for (int du = first; du <= last; du += 2) {
+        std::int32_t const label = labels[row + du];
+        if (label == a) {
+          row_a.add(du, disparity[row + du]);
+        } else if (label == b) {
+          row_b.add(du, disparity[row + du]);
+        }
       }
+      sums_a.add_row(row_a, dv);
+      sums_b.add_row(row_b, dv);
     }
     auto const plane_a = fitted(sums_a);
     auto const plane_b = fitted(sums_b);
@@ -205,6 +226,7 @@ private:
   SurfaceMap const& map_;
   PartLabels const& labels_;
   Limits const& limits_;
+  /// Of each row of a disc its first pixel.
   std::vector<Pixel> disc_;
   RegionGraph graph_;
   std::unordered_map<std::uint64_t, std::size_t> index_;

@@ -8,7 +8,6 @@
 #include <optional>
 #include <queue>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 namespace credo::segments {
@@ -77,27 +76,31 @@ private:
     }
   }
 
+  [[nodiscard]] bool is_small(std::int32_t label) { return size(label) < limits_.small_px; }
+
+  /// Looks at the borders of `from` alone, so that a table takes thousands of crumbs in without
+  /// going through all of its borders for each of them.
   void join(std::int32_t into, std::int32_t from) {
+    bool const was_small = is_small(into);
     size(into) += size(from);
     root_[static_cast<std::size_t>(from)] = into;
     at(into).erase(from);
     at(from).erase(into);
     for (auto const& [other, border] : at(from)) {
-      Border moved = border;
-      moved.low = std::min(into, other);
-      moved.high = std::max(into, other);
-      if (auto const [known, is_new] = at(into).try_emplace(other, moved); !is_new) {
-        known->second.pairs += border.pairs;
-        known->second.parted += border.parted;
-        known->second.samples += border.samples;
-        known->second.unlike += border.unlike;
-      }
       at(other).erase(from);
+      Border& joined = at(into).try_emplace(other, Border{}).first->second;
+      joined = {std::min(into, other),           std::max(into, other),
+                joined.pairs + border.pairs,     joined.parted + border.parted,
+                joined.samples + border.samples, joined.unlike + border.unlike};
+      at(other).insert_or_assign(into, joined);
+      offer(joined);
     }
     at(from).clear();
-    for (auto const& [other, border] : at(into)) {
-      at(other).insert_or_assign(into, border);
-      offer(border);
+    if (was_small && !is_small(into)) {
+      // All of its borders are stronger than they were.
+      for (auto const& [other, border] : at(into)) {
+        offer(border);
+      }
     }
   }
 
@@ -119,31 +122,34 @@ std::vector<std::int32_t> joined_parts(RegionGraph& graph, Limits const& limits)
   return Joiner(graph, limits).joined();
 }
 
-void sharpen_borders(SurfaceMap const& map, RegionGraph const& graph, Limits const& limits,
+void sharpen_borders(SurfaceMap const& map, RegionGraph const& graph,
+                     std::vector<std::int32_t> const& root, Limits const& limits,
                      PartLabels& labels) {
   std::int32_t* const label = labels.row(0);
   std::int16_t const* const disparity = map.disparity.row(0);
+  auto const whole_at = [&](std::ptrdiff_t p) { return root[static_cast<std::size_t>(label[p])]; };
   auto const is_large = [&](std::int32_t part) {
     return graph.sizes[static_cast<std::size_t>(part)] >= limits.border_px;
   };
   for (BorderSample const& sample : graph.samples) {
-    std::int32_t const a = label[sample.at];
-    std::int32_t const b = label[sample.beside];
+    std::int32_t const a = whole_at(sample.at);
+    std::int32_t const b = whole_at(sample.beside);
     if (a == b || !is_large(a) || !is_large(b)) {
       continue;
     }
     for (int v = -1; v <= 1; ++v) {
       for (int u = -1; u <= 1; ++u) {
         std::ptrdiff_t const p = sample.at + v * labels.stride() + u;
-        if (label[p] != a && label[p] != b) {
+        std::int32_t const whole = whole_at(p);
+        if (whole != a && whole != b) {
           continue;
         }
         double const quanta = static_cast<double>(disparity[p]) / kUnitsPerQuantum;
         double const error_a = error(sample.plane, u, v, quanta);
         double const error_b = error(sample.plane_beside, u, v, quanta);
-        if (label[p] == a && error_b + 1.0 < error_a) {
+        if (whole == a && error_b + 1.0 < error_a) {
           label[p] = b;
-        } else if (label[p] == b && error_a + 1.0 < error_b) {
+        } else if (whole == b && error_a + 1.0 < error_b) {
           label[p] = a;
         }
       }

@@ -15,8 +15,10 @@ namespace credo::segments {
 [[nodiscard]] std::vector<std::int32_t> joined_parts(RegionGraph& graph, Limits const& limits);
 
 /// Gives pixels at the samples on the borders of large parts to the side whose plane fits them
-/// better by more than a quantum. `labels` and `graph.sizes` are those after joining.
-void sharpen_borders(SurfaceMap const& map, RegionGraph const& graph, Limits const& limits,
+/// better by more than a quantum. `labels` are those before joining, `root` says what each went
+/// into; `graph.sizes` are those after.
+void sharpen_borders(SurfaceMap const& map, RegionGraph const& graph,
+                     std::vector<std::int32_t> const& root, Limits const& limits,
                      PartLabels& labels);
 
 }  // namespace credo::segments

@@ -12,23 +12,23 @@
 namespace credo {
 namespace {
 
-/// Numbers labels in raster order, and drops the margin.
-Segments numbered(segments::PartLabels const& labels, std::size_t label_count) {
+/// Numbers what parts went into in raster order, and drops the margin.
+Segments numbered(segments::PartLabels const& labels, std::vector<std::int32_t> const& root) {
   Segments result;
   result.labels = Grid<std::int32_t>(labels.width(), labels.height());
-  std::vector<std::int32_t> number_of(label_count, 0);
+  std::vector<std::int32_t> number_of(root.size(), 0);
   for (int v = 0; v < labels.height(); ++v) {
     std::int32_t const* const row = labels.row(v);
     for (int u = 0; u < labels.width();) {
-      if (row[u] == 0) {
-        ++u;
-        continue;
-      }
       int const begin = u;
       while (u < labels.width() && row[u] == row[begin]) {
         ++u;
       }
-      std::int32_t& number = number_of[static_cast<std::size_t>(row[begin])];
+      if (row[begin] == 0) {
+        continue;
+      }
+      auto const part = static_cast<std::size_t>(root[static_cast<std::size_t>(row[begin])]);
+      std::int32_t& number = number_of[part];
       if (number == 0) {
         result.pixel_counts.push_back(0);
         number = static_cast<std::int32_t>(result.pixel_counts.size());
@@ -50,20 +50,8 @@ Segments convex_segments(Grid<float> const& depth_m, double focal_px,
   segments::PartLabels labels = segments::grow_parts(map, limits);
   segments::RegionGraph graph = segments::region_graph(map, labels, limits);
   std::vector<std::int32_t> const root = segments::joined_parts(graph, limits);
-  for (int v = 0; v < labels.height(); ++v) {
-    std::int32_t* const row = labels.row(v);
-    std::int32_t label = 0;
-    std::int32_t into = 0;
-    for (int u = 0; u < labels.width(); ++u) {
-      if (row[u] != label) {
-        label = row[u];
-        into = root[static_cast<std::size_t>(label)];
-      }
-      row[u] = into;
-    }
-  }
-  segments::sharpen_borders(map, graph, limits, labels);
-  return numbered(labels, root.size());
+  segments::sharpen_borders(map, graph, root, limits, labels);
+  return numbered(labels, root);
 }
 
 }  // namespace credo

@@ -38,7 +38,14 @@ FieldList fields(SegmentsConfig& config);
 
 /// Holds touching things apart: cuts where the surface is concave, joins what is convex, so that a
 /// box is one segment and the table under it another. From depth alone, metres; not positive or not
-/// finite = invalid. The same bytes on every machine. No valid pixel gives no segment.
+/// finite = invalid. The same bytes on every machine.
+///
+/// Any image gives an answer, an empty one too. Without valid pixels there is no segment. Nor is
+/// there where pixels are too few together: islands of less than `min_pixels` that have no core of
+/// 8x8, noise, a checkerboard of single pixels. Whole islands have labels, or none of their pixels.
+/// What is so near that its inverse depth exceeds 2000 quanta is as far as these: with a Kinect's,
+/// all below 0.174 m is one flat surface. What is so far that it is below a 32nd of a quantum, 11
+/// km, is invalid. Flat frames are one segment.
 ///
 /// In inverse depth planes are affine in the image, a concave crease is a positive second
 /// difference, and the sensor's noise is the same at every range.
