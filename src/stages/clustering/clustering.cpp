@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/reachability.hpp"
+#include "stages/clustering/firm_pixels.hpp"
 #include "stages/clustering/label_spreading.hpp"
 #include "stages/clustering/stuff_clusters.hpp"
 
@@ -142,7 +143,9 @@ Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals, Segment
     labels = spread_labels(frame.cloud_camera, normals, std::move(labels),
                            static_cast<float>(config.radius_m), config.spread_px);
   }
-  segmentation.stuff = stuff_clusters(frame.cloud_camera, labels, segmentation.T_world_camera,
+  Grid<std::uint8_t> const firm =
+      has_segments ? firm_pixels(frame.cloud_camera.z, labels) : Grid<std::uint8_t>();
+  segmentation.stuff = stuff_clusters(frame.cloud_camera, labels, firm, segmentation.T_world_camera,
                                       static_cast<float>(config.point_spacing_m));
   return segmentation;
 }

@@ -13,8 +13,8 @@ struct ClusteringConfig {
   double radius_m = 0.05;
   /// ... if their normals differ by less than this (T: 0.3).
   double max_angle_rad = 0.3;
-  /// Clusters of fewer pixels (T: points with a normal) are ignored and stay unassigned (T: 25, where
-  /// a Kinect leaves dozens of scraps in every frame).
+  /// Clusters of fewer pixels (T: points with a normal) are ignored and stay unassigned (T: 25,
+  /// where a Kinect leaves dozens of scraps in every frame).
   int min_pixels = 100;
   /// Pixels without a normal take a label from no farther than this in the image; see
   /// spread_labels.
@@ -26,11 +26,12 @@ FieldList fields(ClusteringConfig& config);
 
 /// Clusters what nothing else has explained: the pixels of `frame` that `segmentation` leaves
 /// kUnassigned. Where it holds segments, each is a cluster, with all its pixels that are left.
-/// Without, clusters are what the thesis' algorithm 3 makes of the pixels that have a normal (camera
-/// frame); then pixels without one take the label of what they touch, be it stuff, floor, wall or
-/// object. Each cluster becomes a StuffCluster and gets a label, kFirstStuff + i by the first pixel
-/// in raster order; should there be more than kMaxStuff, the largest stay.
+/// Without, clusters are what the thesis' algorithm 3 makes of the pixels that have a normal
+/// (camera frame); then pixels without one take the label of what they touch, be it stuff, floor,
+/// wall or object. Each cluster becomes a StuffCluster and gets a label, kFirstStuff + i by the
+/// first pixel in raster order; should there be more than kMaxStuff, the largest stay.
 ///
+/// Of segments, centroid, bounds and points leave out single pixels that lie apart (firm_pixels).
 /// A StuffCluster stands for all pixels that carry its label in the end: pixel_count is their
 /// number, centroid (within the bounds) and points are theirs. The entries of floor, walls and
 /// objects stay as they came: they count what made them. Nothing to cluster gives no stuff.

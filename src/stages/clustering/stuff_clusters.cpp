@@ -38,14 +38,18 @@ PointSpans points_of(OrganizedCloud const& cloud, std::size_t begin, std::size_t
 }  // namespace
 
 std::vector<StuffCluster> stuff_clusters(OrganizedCloud const& cloud, LabelMap const& labels,
-                                         Se3 const& T_world_camera, float spacing_m) {
+                                         Grid<std::uint8_t> const& firm, Se3 const& T_world_camera,
+                                         float spacing_m) {
+  auto const is_firm = [&](std::size_t i) { return firm.empty() || firm[i] != 0; };
   std::vector<Gathered> gathered;
   for (int v = 0; v < labels.height(); ++v) {
     std::span<LabelCode const> const codes = labels.row(v);
     for (std::size_t begin = 0; begin < codes.size();) {
       LabelCode const code = codes[begin];
+      std::size_t const first = labels.index({0, v}) + begin;
       std::size_t end = begin + 1;
-      while (end < codes.size() && codes[end] == code) {
+      while (end < codes.size() && codes[end] == code &&
+             is_firm(first + end - begin) == is_firm(first)) {
         ++end;
       }
       if (is_stuff(code)) {
@@ -54,7 +58,9 @@ std::vector<StuffCluster> stuff_clusters(OrganizedCloud const& cloud, LabelMap c
           gathered.push_back({.cells = CellSums(spacing_m, T_world_camera)});
         }
         gathered[i].pixel_count += end - begin;
-        gathered[i].cells.add(points_of(cloud, labels.index({0, v}) + begin, end - begin));
+        if (is_firm(first)) {
+          gathered[i].cells.add(points_of(cloud, first, end - begin));
+        }
       }
       begin = end;
     }

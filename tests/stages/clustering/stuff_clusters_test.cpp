@@ -29,7 +29,7 @@ struct Scene {
     }
   }
   [[nodiscard]] std::vector<StuffCluster> clusters() const {
-    return stuff_clusters(cloud, labels, T_world_camera, kSpacing);
+    return stuff_clusters(cloud, labels, {}, T_world_camera, kSpacing);
   }
 
   OrganizedCloud cloud;
@@ -79,8 +79,8 @@ TEST(StuffClusters, LabelsThatAreNotSeenAreEmpty) {
 }
 
 TEST(StuffClusters, OfNothing) {
-  EXPECT_THAT(stuff_clusters({}, {}, Se3(), kSpacing), IsEmpty());
-  EXPECT_THAT(stuff_clusters(OrganizedCloud(5, 4), LabelMap(5, 4, kFloor), Se3(), kSpacing),
+  EXPECT_THAT(stuff_clusters({}, {}, {}, Se3(), kSpacing), IsEmpty());
+  EXPECT_THAT(stuff_clusters(OrganizedCloud(5, 4), LabelMap(5, 4, kFloor), {}, Se3(), kSpacing),
               IsEmpty());
 }
 
