@@ -7,13 +7,14 @@
 
 namespace credo {
 
-/// 1 for pixels of stuff that lie with their neighbours, else 0. Beside a jump a sensor takes now
-/// one side's depth and now the other's; a segment takes such pixels in, but a single one of them
-/// at the far side would stretch a bottle's bounds across the room.
+/// 1 for the pixels of stuff that hold together, else 0. Beside a jump a sensor takes now one
+/// side's depth and now the other's, and slivers of what is behind are too small for segments of
+/// their own; a segment takes such pixels in, but a single one of them at the far side would
+/// stretch a bottle's bounds across the room.
 ///
-/// A pixel is firm where at least three of the eight around it have its label and nearly its
-/// inverse depth (kFirm_per_m). Labels without a firm pixel have all of theirs. Depth in metres,
-/// positive where there is stuff; both grids have one size.
+/// Neighbours hold together where they have one label and nearly one inverse depth (kFirm_per_m);
+/// what holds together is firm if it has a tenth of the pixels of its label's largest piece. Depth
+/// in metres, positive where there is stuff; both grids have one size.
 [[nodiscard]] Grid<std::uint8_t> firm_pixels(Grid<float> const& depth_m, LabelMap const& labels);
 
 /// About nine standard deviations of a Kinect.
