@@ -135,8 +135,10 @@ std::string left_over_with_noise(Recipe recipe) {
   return "Here and in the next two figures the detected poses are right. With the detector's noise "
          "of chapter 4, " +
          counts +
-         ": a table top turned by a degree is a centimetre off at its edges, and by default a "
-         "region stays within 2 cm of its model.";
+         ": a table top turned by a degree is a centimetre off at its edges; by default what is "
+         "left "
+         "of the table's own segments joins it "
+         "([decision 008](decisions/008-things-are-held-apart-by-convexity.md)).";
 }
 
 Figure both_known() {

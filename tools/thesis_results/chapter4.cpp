@@ -309,10 +309,9 @@ Figure near_glass() {
                {"the far pillar, seen in look 2 only, pales", far_pillar_pales, "", ""}});
   figure.remarks =
       "The text of 4.4.2 calls this scene's figures 4-8 and 4-9, which are those of 4.4.4; its own "
-      "are 4-4 and 4-5. It also speaks of the third look as the last, of four. By default the "
-      "table's pieces are more and larger, because a region stays within 2 cm of its model: see "
-      "figure 3-3. A pillar more than 4 m away falls into strips, one for each step of the "
-      "sensor's disparity.";
+      "are 4-4 and 4-5. It also speaks of the third look as the last, of four. With the "
+      "thesis' numbers a pillar more than 4 m away falls into strips, one for each step of the "
+      "sensor's disparity; by default it is one segment.";
   return figure;
 }
 
