@@ -1,8 +1,11 @@
 #include "stages/segments/segments.hpp"
 
-namespace credo {
+#include <iterator>
 
-FieldList fields(SegmentsConfig& config) {
+namespace credo {
+namespace {
+
+FieldList surface_fields(SegmentsConfig& config) {
   return {
       {"enabled",
        &config.enabled,
@@ -29,6 +32,11 @@ FieldList fields(SegmentsConfig& config) {
        {0, 8},
        "px",
        "... in a square of this radius"},
+  };
+}
+
+FieldList crease_fields(SegmentsConfig& config) {
+  return {
       {"reach_px",
        &config.reach_px,
        {2, 16},
@@ -66,6 +74,16 @@ FieldList fields(SegmentsConfig& config) {
        "planes on both sides of a border are fitted in discs of this radius"},
       {"min_pixels", &config.min_pixels, {1, 1e6}, "px", "smaller parts go to what they touch"},
   };
+}
+
+}  // namespace
+
+FieldList fields(SegmentsConfig& config) {
+  FieldList all = surface_fields(config);
+  FieldList creases = crease_fields(config);
+  all.insert(all.end(), std::make_move_iterator(creases.begin()),
+             std::make_move_iterator(creases.end()));
+  return all;
 }
 
 }  // namespace credo
