@@ -6,7 +6,7 @@ SUDO   := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 # Whatever reads what others wrote, shares memory between threads or counts its own way through
 # arrays. CI, which has minutes, narrows it.
 SANITIZED ?= core config dataset intrinsics trajectory pcd image output mesh detections oni sim graph \
-             planes reachability region_growing
+             planes reachability region_growing segments eval
 # Empty: all of .clang-tidy. CI, which has minutes, narrows it.
 TIDY_CHECKS ?=
 SOURCES = $(shell git ls-files '*.cpp' '*.hpp')
