@@ -1,5 +1,4 @@
 #include <limits>
-#include <utility>
 
 #include "io/belief_json.hpp"
 #include "io/json_value.hpp"
@@ -28,33 +27,23 @@ Evidence evidence_of(JsonValue const& value) {
   value.refuse("'" + word + "' is no evidence");
 }
 
-Eigen::Vector3d vector_of(JsonValue const& value) {
-  return Eigen::Vector3d(value.numbers<3>().data());
-}
-
 /// May be -1, the prior.
 FrameIndex belief_of(JsonValue const& value) {
-  return value.json == -1 ? kPriorFrame
-                          : FrameIndex{static_cast<std::int64_t>(value.count(kMaxCount))};
+  return value.json == -1 ? kPriorFrame : value.frame();
 }
 
 FloorSummary floor_of(JsonValue const& value) {
-  return {vector_of(value.at("normal")), value.at("height_m").number(),
+  return {value.at("normal").vector(), value.at("height_m").number(),
           value.at("points").count(kMaxCount)};
 }
 
 WallSummary wall_of(JsonValue const& value) {
   WallSummary wall;
   wall.id = static_cast<std::uint32_t>(value.at("id").count(kMaxId));
-  std::vector<Eigen::Vector2d> ends;
-  value.at("segment").for_each(
-      [&](JsonValue const& end) { ends.emplace_back(end.numbers<2>().data()); });
-  if (ends.size() != 2) {
-    value.at("segment").refuse("must be two points");
-  }
+  auto const ends = value.at("segment").segment();
   wall.segment_start_m = ends[0];
   wall.segment_end_m = ends[1];
-  wall.normal = vector_of(value.at("normal"));
+  wall.normal = value.at("normal").vector();
   wall.point_count = value.at("points").count(kMaxCount);
   wall.label = label_of(value.at("label"));
   return wall;
@@ -81,9 +70,9 @@ StuffSummary stuff_of(JsonValue const& value) {
   stuff.probability = value.at("probability").fraction();
   stuff.history_count = value.at("history").count(kMaxCount);
   stuff.pixel_count = value.at("points").count(kMaxCount);
-  stuff.centroid_m = vector_of(value.at("centroid")).cast<float>();
-  stuff.min_m = vector_of(value.at("min")).cast<float>();
-  stuff.max_m = vector_of(value.at("max")).cast<float>();
+  stuff.centroid_m = value.at("centroid").vector().cast<float>();
+  stuff.min_m = value.at("min").vector().cast<float>();
+  stuff.max_m = value.at("max").vector().cast<float>();
   stuff.evidence = evidence_of(value.at("evidence"));
   stuff.label = label_of(value.at("label"));
   return stuff;
@@ -94,12 +83,10 @@ BeliefSummary summary_in(JsonValue const& line) {
     line.at("schema").refuse("only 1 is known: written by another version of credo?");
   }
   BeliefSummary belief;
-  belief.frame = FrameIndex{static_cast<std::int64_t>(line.at("frame").count(kMaxCount))};
+  belief.frame = line.at("frame").frame();
   belief.stamp_ns = line.at("stamp_ns").integer();
   belief.segmented_with = belief_of(line.at("segmented_with"));
-  auto const pose = line.at("T_world_camera").numbers<16>();
-  belief.T_world_camera =
-      Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor> const>(pose.data());
+  belief.T_world_camera = line.at("T_world_camera").matrix();
   if (JsonValue const floor = line.at("floor"); !floor.json.is_null()) {
     belief.floor = floor_of(floor);
   }
@@ -112,15 +99,7 @@ BeliefSummary summary_in(JsonValue const& line) {
 }  // namespace
 
 std::vector<BeliefSummary> read_beliefs(std::filesystem::path const& path) {
-  std::vector<BeliefSummary> beliefs;
-  for_each_json_line(path, "beliefs", [&](JsonValue const& line) {
-    BeliefSummary belief = summary_in(line);
-    if (!beliefs.empty() && !(number(belief.frame) > number(beliefs.back().frame))) {
-      line.at("frame").refuse("must come after " + std::to_string(number(beliefs.back().frame)));
-    }
-    beliefs.push_back(std::move(belief));
-  });
-  return beliefs;
+  return read_frames(path, "beliefs", summary_in);
 }
 
 }  // namespace credo

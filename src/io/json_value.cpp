@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
@@ -106,6 +107,24 @@ Eigen::Vector3d JsonValue::position() const {
     refuse("must be within 10000 m");
   }
   return position;
+}
+
+Eigen::Matrix4d JsonValue::matrix() const {
+  auto const rows = numbers<16>();
+  return Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor> const>(rows.data());
+}
+
+std::array<Eigen::Vector2d, 2> JsonValue::segment() const {
+  std::vector<Eigen::Vector2d> ends;
+  for_each([&](JsonValue const& end) { ends.emplace_back(end.numbers<2>().data()); });
+  if (ends.size() != 2) {
+    refuse("must be two points");
+  }
+  return {ends[0], ends[1]};
+}
+
+FrameIndex JsonValue::frame() const {
+  return FrameIndex{static_cast<std::int64_t>(count(std::numeric_limits<std::int64_t>::max()))};
 }
 
 Eigen::Quaterniond JsonValue::orientation() const {

@@ -9,6 +9,8 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/frame.hpp"
 
@@ -40,6 +42,14 @@ struct JsonValue {
   [[nodiscard]] std::array<double, count> numbers() const;
   /// Three numbers within 10 km: beyond, sums and differences of poses have no digits left.
   [[nodiscard]] Eigen::Vector3d position() const;
+  /// Three numbers.
+  [[nodiscard]] Eigen::Vector3d vector() const { return Eigen::Vector3d(numbers<3>().data()); }
+  /// Sixteen numbers, row by row.
+  [[nodiscard]] Eigen::Matrix4d matrix() const;
+  /// Two points, each of two numbers.
+  [[nodiscard]] std::array<Eigen::Vector2d, 2> segment() const;
+  /// A frame's number.
+  [[nodiscard]] FrameIndex frame() const;
   /// Four numbers x y z w, of length 1 within a hundredth.
   [[nodiscard]] Eigen::Quaterniond orientation() const;
   /// Calls `each` for every element of a list.
@@ -51,6 +61,21 @@ struct JsonValue {
 /// for a file that cannot be read: "recorded detections".
 void for_each_json_line(std::filesystem::path const& path, std::string const& what,
                         std::function<void(JsonValue const&)> const& each);
+
+/// What `read` makes of each line of such a file, in order; each has a `frame`, and one that does
+/// not come after the one before is refused.
+template <typename Read>
+auto read_frames(std::filesystem::path const& path, std::string const& what, Read const& read) {
+  std::vector<decltype(read(std::declval<JsonValue const&>()))> frames;
+  for_each_json_line(path, what, [&](JsonValue const& line) {
+    auto frame = read(line);
+    if (!frames.empty() && !(number(frame.frame) > number(frames.back().frame))) {
+      line.at("frame").refuse("must come after " + std::to_string(number(frames.back().frame)));
+    }
+    frames.push_back(std::move(frame));
+  });
+  return frames;
+}
 
 template <std::size_t count>
 std::array<double, count> JsonValue::numbers() const {

@@ -1,8 +1,6 @@
 #include "io/recorded_detections.hpp"
 
 #include <Eigen/Cholesky>
-#include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -50,8 +48,7 @@ Detection detection_of(JsonValue const& value) {
 
 std::pair<FrameIndex, std::vector<Detection>> frame_in(JsonValue const& line) {
   line.must_be_object({"frame", "detections"});
-  FrameIndex const frame{
-      static_cast<std::int64_t>(line.at("frame").count(std::numeric_limits<std::int64_t>::max()))};
+  FrameIndex const frame = line.at("frame").frame();
   std::vector<Detection> detections;
   line.at("detections").for_each([&](JsonValue const& value) {
     detections.push_back(detection_of(value));

@@ -2,7 +2,6 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "io/json_value.hpp"
 
@@ -47,7 +46,7 @@ LabelCode label_of(JsonValue const& value) {
 
 TrueFloor floor_of(JsonValue const& value) {
   TrueFloor floor;
-  floor.normal = Eigen::Vector3d(value.at("normal").numbers<3>().data());
+  floor.normal = value.at("normal").vector();
   floor.height_m = value.at("height_m").number();
   return floor;
 }
@@ -55,15 +54,10 @@ TrueFloor floor_of(JsonValue const& value) {
 TrueWall wall_of(JsonValue const& value) {
   TrueWall wall;
   wall.id = value.at("id").text();
-  std::vector<Eigen::Vector2d> ends;
-  value.at("segment").for_each(
-      [&](JsonValue const& end) { ends.emplace_back(end.numbers<2>().data()); });
-  if (ends.size() != 2) {
-    value.at("segment").refuse("must be two points");
-  }
+  auto const ends = value.at("segment").segment();
   wall.segment_start_m = ends[0];
   wall.segment_end_m = ends[1];
-  wall.normal = Eigen::Vector3d(value.at("normal").numbers<3>().data());
+  wall.normal = value.at("normal").vector();
   wall.visible_fraction = value.at("visible_fraction").fraction();
   wall.label = label_of(value.at("label"));
   return wall;
@@ -93,8 +87,7 @@ TrueEvent event_of(JsonValue const& value) {
 
 FrameTruth truth_in(JsonValue const& line) {
   FrameTruth truth;
-  truth.frame = FrameIndex{
-      static_cast<std::int64_t>(line.at("frame").count(std::numeric_limits<std::int64_t>::max()))};
+  truth.frame = line.at("frame").frame();
   truth.stamp_ns = line.at("stamp_ns").integer();
   auto const pose = line.at("T_world_camera").numbers<16>();
   truth.T_world_camera =
@@ -142,15 +135,7 @@ std::string truth_json(FrameTruth const& truth) {
 }
 
 std::vector<FrameTruth> read_truth(std::filesystem::path const& path) {
-  std::vector<FrameTruth> frames;
-  for_each_json_line(path, "true beliefs", [&](JsonValue const& line) {
-    FrameTruth truth = truth_in(line);
-    if (!frames.empty() && !(number(truth.frame) > number(frames.back().frame))) {
-      line.at("frame").refuse("must come after " + std::to_string(number(frames.back().frame)));
-    }
-    frames.push_back(std::move(truth));
-  });
-  return frames;
+  return read_frames(path, "true beliefs", truth_in);
 }
 
 }  // namespace credo

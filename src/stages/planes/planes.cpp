@@ -9,16 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/segment_shares.hpp"
 #include "geometry/thinning.hpp"
 #include "stages/planes/plane_pixels.hpp"
 
 namespace credo {
 namespace {
 
-// Of a segment's pixels: from the first on it is a plane's, up to the second the plane takes none
-// of it; below the third its pixels are the edge of something else.
-constexpr double kMostlyShare = 0.6;
-constexpr double kHardlyShare = 0.2;
 /// So many tolerances from the plane is near enough for what is on its segment anyway.
 constexpr float kNear = 3.0F;
 

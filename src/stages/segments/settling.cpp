@@ -6,6 +6,8 @@
 #include <map>
 #include <vector>
 
+#include "geometry/segment_shares.hpp"
+
 namespace credo {
 namespace {
 

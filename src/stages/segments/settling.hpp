@@ -14,7 +14,4 @@ namespace credo {
 /// of the objects become those that they have then.
 [[nodiscard]] Segmentation settle_objects(Segmentation segmentation);
 
-inline constexpr double kMostlyShare = 0.6;
-inline constexpr double kHardlyShare = 0.2;
-
 }  // namespace credo
