@@ -85,6 +85,19 @@ TEST(PlanesOfSegments, WhatIsFloorByItsSegmentIsFloorAlsoWhereItIsRough) {
             result.floor->pixel_count);
 }
 
+TEST(PlanesOfSegments, WhatJoinsAPlaneIsNotFoundAgainInTheNext) {
+  // A step of 3 cm in the floor: beyond the tolerance, large enough for a plane of its own.
+  Shot const shot = shot_of(WorldScene().with_floor().with_box({-0.3, 0.9, 0.0}, {0.3, 1.4, 0.03}),
+                            camera_looking_along_y(1.0, 0.8));
+  Segmentation const result = planes_of(shot, [](Eigen::Vector3d const&) { return 1; });
+  std::size_t floor = 0;
+  for (LabelCode const label : result.labels) {
+    floor += label == kFloor ? 1 : 0;
+  }
+  ASSERT_TRUE(result.floor);
+  EXPECT_EQ(result.floor->pixel_count, floor);
+}
+
 TEST(PlanesOfSegments, WallsThatShareASegmentAreBothFound) {
   // The camera looks into a corner whose crease nobody has seen.
   WorldScene scene = WorldScene().with_wall(3.0);
