@@ -1,8 +1,11 @@
 #include "graph/stages.hpp"
 
+#include <optional>
 #include <utility>
 
+#include "stages/segments/raised_things.hpp"
 #include "stages/segments/settling.hpp"
+#include "stages/segments/thing_parts.hpp"
 
 namespace credo {
 namespace {
@@ -29,6 +32,26 @@ Segmentation find_objects(Frame const& frame, NormalMap const& normals, Segmenta
   segmentation =
       match_detections(std::move(segmentation), seen, detections, known.models, config.detection);
   return grow_objects(frame, normals, std::move(segmentation), known.shapes, config.region_growing);
+}
+
+/// Which way is up is known where the level is.
+Segmentation with_segments(Frame const& frame, Segmentation segmentation,
+                           SegmentsConfig const& config) {
+  Grid<float> const& depth_m = frame.cloud_camera.z;
+  segmentation.segments = convex_segments(depth_m, frame.intrinsics.fx_px, config);
+  if (config.join_parts) {
+    std::optional<Eigen::Vector3d> up_camera;
+    if (segmentation.floor_at_zero) {
+      up_camera = segmentation.T_world_camera.rotation().inverse() * Eigen::Vector3d::UnitZ();
+    }
+    segmentation.segments =
+        join_parts(std::move(segmentation.segments), depth_m, frame.intrinsics, up_camera, config);
+  }
+  if (config.raised_quanta > 0.0) {
+    segmentation.segments = with_raised_things(std::move(segmentation.segments), depth_m,
+                                               frame.intrinsics.fx_px, config);
+  }
+  return segmentation;
 }
 
 void make_independent(Stages& stages, PipelineConfig const& config, Prior const& prior,
@@ -65,9 +88,7 @@ Stages make_stages(PipelineConfig const& config, WorldLevel const& level, Prior 
   };
   stages.planes = [config](Frame const& frame, NormalMap const& normals, Segmentation so_far) {
     if (config.segments.enabled) {
-      so_far.segments =
-          convex_segments(frame.cloud_camera.z, frame.intrinsics.fx_px, config.segments);
-      so_far = settle_objects(std::move(so_far));
+      so_far = settle_objects(with_segments(frame, std::move(so_far), config.segments));
     }
     return extract_planes(frame, normals, std::move(so_far), config.planes);
   };

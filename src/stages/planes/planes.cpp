@@ -63,8 +63,21 @@ CountedPixels pixels_where(LabelMap const& labels, Test const& test) {
   return result;
 }
 
-CountedPixels unassigned_pixels(LabelMap const& labels) {
-  return pixels_where(labels, [](LabelCode label) { return label == kUnassigned; });
+CountedPixels unassigned_pixels(LabelMap const& labels, Segments const& segments) {
+  CountedPixels pixels = pixels_where(labels, [](LabelCode label) { return label == kUnassigned; });
+  if (std::ranges::all_of(segments.lies_on, [](std::int32_t base) { return base == 0; })) {
+    return pixels;
+  }
+  // What lies on a surface is near to its plane, but nothing of it.
+  CountedPixels lying{PixelSet(labels.size()), 0};
+  pixels.pixels.for_each([&](std::size_t i) {
+    std::int32_t const segment = segments.labels[i];
+    if (segment != 0 && segments.lies_on[static_cast<std::size_t>(segment - 1)] != 0) {
+      lying.insert(i);
+    }
+  });
+  pixels.remove(lying);
+  return pixels;
 }
 
 CountedPixels pixels_with_depth(LabelMap const& labels) {
@@ -345,7 +358,7 @@ void fill_holes(View const& view, std::vector<std::pair<LabelCode, Plane>> const
   constexpr float kAllBut = 0.5F;
   PlaneTolerance const close{kAllBut * view.tolerance.fixed_m,
                              kAllBut * view.tolerance.noise_sigmas, 0.0F};
-  CountedPixels unassigned = unassigned_pixels(segmentation.labels);
+  CountedPixels unassigned = unassigned_pixels(segmentation.labels, segmentation.segments);
   for (auto const& [label, plane_camera] : found) {
     CountedPixels joining =
         plane_inliers(plane_camera, view.cloud, view.normals, unassigned.pixels, close);
@@ -365,7 +378,8 @@ Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmen
   View const view{frame.cloud_camera,          normals,
                   segmentation.T_world_camera, config,
                   tolerance_of(config),        pixels_with_depth(segmentation.labels)};
-  RemainingPoints remaining(view, segmentation.segments, unassigned_pixels(segmentation.labels));
+  RemainingPoints remaining(view, segmentation.segments,
+                            unassigned_pixels(segmentation.labels, segmentation.segments));
   std::vector<std::pair<LabelCode, Plane>> found;
   for (int k = 0; k < config.max_planes; ++k) {
     std::optional<PixelPlane> plane = remaining.take_largest(

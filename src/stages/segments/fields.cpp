@@ -73,6 +73,23 @@ FieldList crease_fields(SegmentsConfig& config) {
        "px",
        "planes on both sides of a border are fitted in discs of this radius"},
       {"min_pixels", &config.min_pixels, {1, 1e6}, "px", "smaller parts go to what they touch"},
+      {"join_parts",
+       &config.join_parts,
+       {},
+       "",
+       "the inside and the outside of a vessel are one thing, and so is a thing with its handle, "
+       "cap or "
+       "neck"},
+      {"raised_quanta",
+       &config.raised_quanta,
+       {0, 100},
+       "quanta",
+       "what stands out of a flat surface by more is a thing that lies on it; 0 looks for none"},
+      {"raised_min_pixels",
+       &config.raised_min_pixels,
+       {1, 1e6},
+       "px",
+       "... if it is as large as this"},
   };
 }
 

@@ -33,6 +33,12 @@ struct SegmentsConfig {
   int disc_radius_px = 12;
   /// Smaller parts go to what they touch.
   int min_pixels = 80;
+  /// Joins the parts of one thing: see join_parts.
+  bool join_parts = true;
+  /// What stands out of a flat surface by more is a thing that lies on it; 0 looks for none.
+  double raised_quanta = 2.0;
+  /// Smaller things are not looked for.
+  int raised_min_pixels = 100;
 };
 FieldList fields(SegmentsConfig& config);
 

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "stages/segments/depth_images.hpp"
+#include "stages/segments/table.hpp"
 #include "support/rendered_scene.hpp"
 
 namespace credo {
@@ -19,6 +20,8 @@ using Eigen::AngleAxisd;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using test::kinect_intrinsics;
+using test::label_at;
+using test::Table;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -30,48 +33,8 @@ Segments segments_of(Grid<float> const& depth_m) {
   return convex_segments(depth_m, kFocal_px, {});
 }
 
-/// A table that the camera looks down on, and things on it.
-class Table {
-public:
-  explicit Table(double distance_m, double down_rad = 0.6)
-      : axes_(AngleAxisd(down_rad, Vector3d::UnitX()).toRotationMatrix()),
-        origin_(0, 0, distance_m) {
-    Vector3d const up = place(0, 1, 0) - origin_;
-    scene_.planes = {{up, up.dot(origin_)}};
-  }
-
-  /// Right, up and ahead of the table's middle.
-  [[nodiscard]] Vector3d place(double right, double up, double ahead) const {
-    return origin_ + axes_ * Vector3d(right, -up, ahead);
-  }
-  /// Stands on the table.
-  void add_box(double right, double ahead, double yaw_rad, Vector3d const& half_size_m) {
-    Matrix3d const turned = axes_ * AngleAxisd(yaw_rad, Vector3d::UnitY()).toRotationMatrix();
-    scene_.bodies.push_back(test::box(place(right, half_size_m.y(), ahead), turned, half_size_m));
-  }
-  void add_ball(double right, double ahead, double radius_m) {
-    scene_.spheres.push_back({place(right, radius_m, ahead), radius_m});
-  }
-
-  [[nodiscard]] Segments seen(bool noisy) const {
-    Grid<float> depth_m = test::render(scene_, 640, 480, kinect_intrinsics()).depth_m;
-    if (noisy) {
-      depth_m = test::with_kinect_noise(depth_m, 11);
-    }
-    return convex_segments(depth_m, kinect_intrinsics().fx_px, {});
-  }
-
-private:
-  Matrix3d axes_;
-  Vector3d origin_;
-  test::Scene scene_;
-};
-
-std::int32_t label_at(Segments const& segments, Vector3d const& point) {
-  CameraIntrinsics const camera = kinect_intrinsics();
-  return segments.labels[Pixel{
-      static_cast<int>(std::lround(camera.fx_px * point.x() / point.z() + camera.cx_px)),
-      static_cast<int>(std::lround(camera.fy_px * point.y() / point.z() + camera.cy_px))}];
+Segments segments_of(Table const& table, bool noisy) {
+  return convex_segments(table.depth_m(noisy), kinect_intrinsics().fx_px, {});
 }
 
 /// Segments that are more than a splinter.
@@ -106,7 +69,7 @@ TEST(ConvexSegments, AThingAndItsTableAtEveryRange) {
         }
         Table table(distance_m);
         table.add_box(0.0, 0.0, yaw_rad, {0.06, 0.08, 0.06});
-        Segments const segments = table.seen(noisy);
+        Segments const segments = segments_of(table, noisy);
         std::int32_t const top = label_at(segments, table.place(0, 0.16, 0));
         EXPECT_EQ(large_count(segments), 2U) << distance_m << " " << yaw_rad << " " << noisy;
         EXPECT_NE(top, label_at(segments, table.place(0.2, 0, 0)));
@@ -123,12 +86,12 @@ TEST(ConvexSegments, BoxesSideBySideAreTwo) {
     Table with_gap(0.9);
     with_gap.add_box(-0.08, 0.0, 0.0, {0.07, 0.07, 0.07});
     with_gap.add_box(0.08, 0.0, 0.0, {0.07, 0.07, 0.07});
-    EXPECT_EQ(large_count(with_gap.seen(noisy)), 3U) << noisy;
+    EXPECT_EQ(large_count(segments_of(with_gap, noisy)), 3U) << noisy;
     // They touch in an edge, and open towards the camera; one is higher.
     Table with_crease(0.9);
     with_crease.add_box(-0.09, 0.0, -0.5, {0.07, 0.07, 0.07});
     with_crease.add_box(0.09, 0.0, 0.5, {0.07, 0.10, 0.07});
-    Segments const segments = with_crease.seen(noisy);
+    Segments const segments = segments_of(with_crease, noisy);
     EXPECT_EQ(large_count(segments), 3U) << noisy;
     EXPECT_NE(label_at(segments, with_crease.place(-0.09, 0.14, 0)),
               label_at(segments, with_crease.place(0.09, 0.20, 0)));
@@ -140,18 +103,18 @@ TEST(ConvexSegments, ABoxBeforeAnotherIsAThingOfItsOwn) {
   table.add_box(0.0, 0.15, 0.0, {0.12, 0.12, 0.04});
   table.add_box(0.02, -0.06, 0.3, {0.05, 0.06, 0.05});
   table.add_ball(-0.25, 0.0, 0.06);
-  Segments const segments = table.seen(true);
+  Segments const segments = segments_of(table, true);
   EXPECT_EQ(large_count(segments), 4U);
 }
 
 TEST(ConvexSegments, ABoxOnABoxIsTwo) {
   Table table(1.0);
   table.add_box(0.0, 0.0, 0.2, {0.12, 0.05, 0.12});
-  Segments const one = table.seen(true);
+  Segments const one = segments_of(table, true);
   EXPECT_EQ(large_count(one), 2U);
   // A smaller one on its top: as if it stood on the table, twice as high.
   table.add_box(0.0, 0.0, 0.2, {0.06, 0.10, 0.06});
-  Segments const two = table.seen(true);
+  Segments const two = segments_of(table, true);
   EXPECT_EQ(large_count(two), 3U);
 }
 

@@ -1,0 +1,281 @@
+#include "stages/segments/thing_parts.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "stages/segments/outlines.hpp"
+
+namespace credo {
+namespace {
+
+using segments::Meeting;
+using segments::Outline;
+using segments::PixelBox;
+
+using Labels = std::vector<std::int32_t>;
+
+/// Shares of the pairs of an outline. Seen on vessels: behind their front 0.4 to 0.5 of it, before
+/// the background 0.27 to 0.5.
+constexpr double kRim = 0.15;
+constexpr double kHardly = 0.1;
+/// What sticks out may be behind what it sticks out of by so much.
+constexpr double kPartlyHidden = 0.25;
+/// A vessel's inside is at most so many times what is seen of its outside.
+constexpr double kLargestInside = 4.0;
+/// What sticks out is at most this part of what it sticks out of.
+constexpr double kLargestAttachment = 0.25;
+/// Quanta that a surface rises from its middle's tangent to its ends, twice: hollow beyond the one,
+/// a thing inside beyond the other.
+constexpr double kHollow_quanta = 10.0;
+constexpr double kBulging_quanta = -20.0;
+/// Surfaces within 37 degrees of level carry what touches them.
+constexpr double kLevelCosine = 0.8;
+
+class PartJoiner {
+public:
+  PartJoiner(Segments const& segments, Grid<float> const& depth_m,
+             CameraIntrinsics const& intrinsics, std::optional<Eigen::Vector3d> const& up_camera,
+             SegmentsConfig const& config)
+      : segments_(segments),
+        depth_m_(depth_m),
+        intrinsics_(intrinsics),
+        up_camera_(up_camera),
+        quantum_per_m_(config.quantum_per_m),
+        disc_px_(static_cast<int>(std::lround(scaled(config.disc_radius_px)))),
+        least_pairs_(static_cast<std::uint32_t>(std::max(1L, std::lround(scaled(4.0))))),
+        outlines_(segments::outlines_of(
+            segments, depth_m, static_cast<float>(config.link_quanta * config.quantum_per_m))),
+        root_(outlines_.size()) {
+    std::iota(root_.begin(), root_.end(), 0);
+  }
+
+  /// What each label has gone into.
+  Labels joined() && {
+    auto const end = static_cast<std::int32_t>(outlines_.size());
+    for (std::int32_t label = 1; label < end; ++label) {
+      join_inside(label);
+    }
+    if (up_camera_) {
+      for (std::int32_t label = 1; label < end; ++label) {
+        join_attachment(label);
+      }
+    }
+    return std::move(root_);
+  }
+
+private:
+  [[nodiscard]] double scaled(double at_reference_px) const {
+    return at_reference_px * intrinsics_.fx_px / 525.0;
+  }
+  [[nodiscard]] Outline const& outline(std::int32_t label) const {
+    return outlines_[static_cast<std::size_t>(label)];
+  }
+  [[nodiscard]] bool touches(Meeting const& meeting) const {
+    return meeting.touching >= least_pairs_;
+  }
+
+  /// If a segment is a vessel's inside, or a part of it, joins all of that to the outside.
+  void join_inside(std::int32_t label) {
+    auto const& meetings = outline(label).meetings;
+    auto const front = std::ranges::max_element(
+        meetings, {}, [](auto const& meeting) { return meeting.second.behind; });
+    if (front == meetings.end() || front->second.behind < least_pairs_) {
+      return;
+    }
+    std::int32_t const outside = front->first;
+    Labels const found = island(label, outside);
+    if (!lies_within(found, found, outside)) {
+      return;
+    }
+    // Things in it stay apart.
+    Labels inside = found;
+    std::erase_if(inside, [&](std::int32_t part) { return bend_quanta({part}) < kBulging_quanta; });
+    if (lies_within(inside, found, outside) && bend_quanta(inside) > kHollow_quanta) {
+      for (std::int32_t const part : inside) {
+        join(outside, part);
+      }
+    }
+  }
+
+  /// What a segment is connected with by touch, not counting what is through `without`. Empty where
+  /// that is more than the inside of `without` may be.
+  [[nodiscard]] Labels island(std::int32_t label, std::int32_t without) const {
+    double const most_px = kLargestInside * outline(without).pixels;
+    double pixels = outline(label).pixels;
+    Labels members = {label};
+    for (std::size_t i = 0; i < members.size() && pixels <= most_px; ++i) {
+      for (auto const& [other, meeting] : outline(members[i]).meetings) {
+        if (touches(meeting) && other != without &&
+            std::ranges::find(members, other) == members.end()) {
+          members.push_back(other);
+          pixels += outline(other).pixels;
+        }
+      }
+    }
+    return pixels <= most_px ? members : Labels{};
+  }
+
+  /// Whether `outside` is in front of some segments, nothing else is, and they are themselves in
+  /// front of what is beyond; but for what else is on their island.
+  [[nodiscard]] bool lies_within(Labels const& inside, Labels const& island,
+                                 std::int32_t outside) const {
+    Meeting with_outside;
+    Meeting with_others;
+    for (std::int32_t const part : inside) {
+      for (auto const& [other, meeting] : outline(part).meetings) {
+        if (other == outside) {
+          with_outside.add(meeting);
+        } else if (std::ranges::find(island, other) == island.end()) {
+          with_others.add(meeting);
+        }
+      }
+    }
+    double const pairs = with_outside.pairs() + with_others.pairs();
+    return with_outside.behind > kRim * pairs && with_others.before > kRim * pairs &&
+           with_others.behind <= kHardly * with_outside.behind;
+  }
+
+  /// How a surface bends over its size: of the quadratic that fits its inverse depth, the second
+  /// differences over the square root of its pixels, both axes together. Positive where hollow.
+  [[nodiscard]] double bend_quanta(Labels const& parts) const {
+    using Vector6 = Eigen::Matrix<double, 6, 1>;
+    Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
+    Vector6 products = Vector6::Zero();
+    double pixels = 0.0;
+    for (std::int32_t const part : parts) {
+      pixels += outline(part).pixels;
+    }
+    double const size_px = std::sqrt(pixels);
+    for (std::int32_t const part : parts) {
+      Pixel const centre = outline(parts.front()).box.first;
+      for_pixels(part, outline(part).box, [&](Pixel p) {
+        double const u = (p.u - centre.u) / size_px;
+        double const v = (p.v - centre.v) / size_px;
+        Vector6 terms;
+        terms << 1.0, u, v, u * u / 2.0, u * v, v * v / 2.0;
+        squares += terms * terms.transpose();
+        products += terms * quanta(p);
+      });
+    }
+    if (pixels < 1.0) {
+      return 0.0;
+    }
+    Vector6 const fit = squares.ldlt().solve(products);
+    return fit[3] + fit[5];
+  }
+
+  /// Joins a segment to the only one that it touches, if it is small and does not rest on it.
+  void join_attachment(std::int32_t label) {
+    Outline const& part = outline(label);
+    std::int32_t holder = 0;
+    Meeting with_holder;
+    Meeting with_others;
+    for (auto const& [other, meeting] : part.meetings) {
+      if (!touches(meeting)) {
+        with_others.add(meeting);
+      } else if (holder == 0) {
+        holder = other;
+        with_holder = meeting;
+      } else {
+        return;
+      }
+    }
+    double const pairs = with_holder.pairs() + with_others.pairs();
+    bool const sticks_out = with_others.before > kRim * pairs &&
+                            with_holder.behind <= kPartlyHidden * pairs &&
+                            with_others.behind <= kHardly * pairs;
+    if (holder == 0 || !sticks_out || is_cut_off(part.box) ||
+        part.pixels > kLargestAttachment * outline(holder).pixels) {
+      return;
+    }
+    if (!is_level(holder, with_holder.touch)) {
+      join(holder, label);
+    }
+  }
+
+  [[nodiscard]] bool is_cut_off(PixelBox const& box) const {
+    return box.first.u == 0 || box.first.v == 0 || box.last.u == depth_m_.width() - 1 ||
+           box.last.v == depth_m_.height() - 1;
+  }
+
+  /// Whether a segment is level around a place, facing up.
+  [[nodiscard]] bool is_level(std::int32_t label, PixelBox const& place) const {
+    PixelBox const around = place.grown(disc_px_, depth_m_.width(), depth_m_.height());
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d products = Eigen::Vector3d::Zero();
+    for_pixels(label, around, [&](Pixel p) {
+      Eigen::Vector3d const ray((p.u - intrinsics_.cx_px) / intrinsics_.fx_px,
+                                (p.v - intrinsics_.cy_px) / intrinsics_.fy_px, 1.0);
+      squares += ray * ray.transpose();
+      products += ray * quanta(p);
+    });
+    // A plane n p = 1 has inverse depth n ray: n points away from the camera.
+    Eigen::Vector3d const normal = squares.ldlt().solve(products);
+    return -normal.dot(*up_camera_) > kLevelCosine * normal.norm();
+  }
+
+  template <typename Visit>
+  void for_pixels(std::int32_t label, PixelBox const& box, Visit const& visit) const {
+    for (int v = box.first.v; v <= box.last.v; ++v) {
+      for (int u = box.first.u; u <= box.last.u; ++u) {
+        std::int32_t const found = segments_.labels[Pixel{u, v}];
+        if (root_[static_cast<std::size_t>(found)] == label) {
+          visit({u, v});
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] double quanta(Pixel p) const {
+    return 1.0 / (static_cast<double>(depth_m_[p]) * quantum_per_m_);
+  }
+
+  void join(std::int32_t into, std::int32_t from) {
+    segments::join_outlines(outlines_, into, from);
+    std::ranges::replace(root_, from, into);
+  }
+
+  Segments const& segments_;
+  Grid<float> const& depth_m_;
+  CameraIntrinsics const& intrinsics_;
+  std::optional<Eigen::Vector3d> const& up_camera_;
+  double quantum_per_m_;
+  int disc_px_;
+  /// So many pairs are no accident.
+  std::uint32_t least_pairs_;
+  std::vector<Outline> outlines_;
+  Labels root_;
+};
+
+}  // namespace
+
+Segments join_parts(Segments segments, Grid<float> const& depth_m,
+                    CameraIntrinsics const& intrinsics,
+                    std::optional<Eigen::Vector3d> const& up_camera, SegmentsConfig const& config) {
+  Labels const root = PartJoiner(segments, depth_m, intrinsics, up_camera, config).joined();
+  // Numbered anew, by the first pixel of each.
+  Labels number(root.size(), 0);
+  std::vector<std::uint32_t> counts;
+  for (std::int32_t& label : segments.labels) {
+    if (label == 0) {
+      continue;
+    }
+    std::int32_t& of = number[static_cast<std::size_t>(root[static_cast<std::size_t>(label)])];
+    if (of == 0) {
+      counts.push_back(0);
+      of = static_cast<std::int32_t>(counts.size());
+    }
+    ++counts[static_cast<std::size_t>(of - 1)];
+    label = of;
+  }
+  segments.pixel_counts = std::move(counts);
+  return segments;
+}
+
+}  // namespace credo

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "core/frame.hpp"
+#include "core/grid.hpp"
+#include "core/segments.hpp"
+#include "stages/segments/segments.hpp"
+
+namespace credo {
+
+/// Joins the parts of one thing that a crease or a jump of depth holds apart:
+/// - the inside of a vessel and its outside: what lies behind nothing but one segment, before
+///   something else (the rim's far side), touches nothing else and is hollow;
+/// - what sticks out of one thing, is less than a quarter of it and touches nothing else: handle,
+///   cap, neck. What stands on a level surface does not stick out of it, so without
+///   `up_camera` (unit vector, camera frame) none of these join.
+///
+/// A thing's foot shows whether it is one of its own, so what the image's border cuts off or what
+/// something else hides a part of joins nothing; a thing whose foot is hidden by one that touches
+/// nothing else is the mistake that is left.
+///
+/// `segments` are those of `convex_segments` for that depth; the result is numbered like them.
+/// Empty images and images without segments are no error.
+[[nodiscard]] Segments join_parts(Segments segments, Grid<float> const& depth_m,
+                                  CameraIntrinsics const& intrinsics,
+                                  std::optional<Eigen::Vector3d> const& up_camera,
+                                  SegmentsConfig const& config);
+
+}  // namespace credo
