@@ -7,6 +7,8 @@
 #include <numeric>
 #include <random>
 
+#include "geometry/plane_search_kernels.hpp"
+
 namespace credo {
 namespace {
 
@@ -130,6 +132,28 @@ TEST(InliersOf, JudgesPointsWithoutNormalByDistanceAlone) {
   Plane const floor;
   EXPECT_EQ(inliers_of(floor, points, 0.3).inliers, (std::vector<std::uint8_t>{1, 1, 0, 1, 0, 1}));
   EXPECT_EQ(inliers_of(floor, points, 3.15).inliers, (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 1}));
+}
+
+TEST(InliersOf, AreThoseThatEachTellsByItself) {
+  for (int count = 0; count < 40; ++count) {
+    PlaneSearchPoints points;
+    add_plane(points, tilted_plane(), count, 0.01, 1);
+    add_clutter(points, count % 7, 2);
+    for (int i = 0; i < count; i += 3) {
+      points.normal_x[static_cast<std::size_t>(i)] = kNoNormal;
+    }
+    for (double const max_angle_rad : {0.0, 0.3, 3.15}) {
+      FoundPlane const found = inliers_of(tilted_plane(), points, max_angle_rad);
+      plane_search::FloatPlane const plane(tilted_plane(), max_angle_rad);
+      std::size_t belonging = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        EXPECT_EQ(found.inliers[i], plane_search::belongs(plane, points, i)) << count << ' ' << i;
+        belonging += found.inliers[i];
+      }
+      EXPECT_EQ(found.inlier_count, belonging);
+      EXPECT_EQ(plane_search::count_belonging(plane, points), belonging);
+    }
+  }
 }
 
 TEST(FitPlane, WeighsPointsByTheirTolerance) {
