@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "stages/segments/kernels.hpp"
+#include "stages/segments/row_bits.hpp"
 
 namespace credo::segments {
 namespace {
@@ -35,8 +36,9 @@ public:
   Growth(SurfaceMap const& map, Limits const& limits)
       : map_(map),
         limits_(limits),
-        labels_(map.width(), map.height()),
-        worth_(map.width(), map.height()),
+        labels_(map.width(), map.height(), PartLabels::kFewMarginRows),
+        worth_(map.width(), map.height(), PartLabels::kFewMarginRows),
+        enough_(map.width()),
         candidates_(static_cast<std::size_t>(map.width()) + PartLabels::kMargin),
         neighbours_({-1, 1, static_cast<Position>(-labels_.stride()),
                      static_cast<Position>(labels_.stride())}) {
@@ -73,17 +75,12 @@ private:
 
   /// The runs of a row, joined with those of the row before, which begin at `above`.
   void add_runs(int v, std::uint8_t least, std::size_t above) {
-    std::uint8_t const* const worth = worth_.row(v);
     int const width = map_.width();
+    at_least_bits(worth_.row(v), least, static_cast<std::size_t>(width), enough_.data());
     std::size_t const row_begin = runs_.size();
-    for (int u = 0; u < width; ++u) {
-      if (worth[u] < least) {
-        continue;
-      }
+    for (int u = enough_.next_set(0); u < width; u = enough_.next_set(u)) {
       Run run{v, u, u, static_cast<std::int32_t>(runs_.size())};
-      while (u < width && worth[u] >= least) {
-        ++u;
-      }
+      u = enough_.next_clear(u);
       run.end = u;
       runs_.push_back(run);
       for (; above < row_begin && runs_[above].begin < run.end; ++above) {
@@ -105,9 +102,7 @@ private:
     std::size_t above = 0;
     for (int v = 0; v < map_.height(); ++v) {
       std::size_t const begin = runs_.size();
-      if (has_any(v, least)) {
-        add_runs(v, least, above);
-      }
+      add_runs(v, least, above);
       above = begin;
     }
     std::vector<std::uint32_t> size_px(runs_.size(), 0);
@@ -128,15 +123,6 @@ private:
       std::fill(labels_.row(run.v) + run.begin, labels_.row(run.v) + run.end, label_of[root]);
       std::fill(worth_.row(run.v) + run.begin, worth_.row(run.v) + run.end, std::uint8_t{0});
     }
-  }
-
-  [[nodiscard]] bool has_any(int v, std::uint8_t least) const {
-    std::uint8_t const* const row = worth_.row(v);
-    std::uint8_t most = 0;
-    for (int u = 0; u < map_.width(); ++u) {
-      most = std::max(most, row[u]);
-    }
-    return most >= least;
   }
 
   /// Labelled pixels beside others of that worth without a label, in raster order.
@@ -207,6 +193,7 @@ private:
   Limits const& limits_;
   PartLabels labels_;
   PaddedGrid<std::uint8_t> worth_;
+  RowBits enough_;
   std::vector<std::uint8_t> candidates_;
   /// In the order in which fronts advance.
   std::array<Position, 4> neighbours_;
