@@ -52,10 +52,12 @@ Runs segment_components(Segmentation const& segmentation) {
   std::int32_t count = 0;
   Runs runs;
   for (int v = 0; v < labels.height(); ++v) {
+    LabelCode const* const label = labels.row(v).data();
+    std::int32_t const* const segment_at = segments.row(v).data();
     for (int u = 0; u < labels.width();) {
-      std::int32_t const segment = segments[{u, v}];
+      std::int32_t const segment = segment_at[u];
       int const begin = u;
-      while (u < labels.width() && labels[{u, v}] == kUnassigned && segments[{u, v}] == segment) {
+      while (u < labels.width() && label[u] == kUnassigned && segment_at[u] == segment) {
         ++u;
       }
       if (u == begin || segment == 0) {

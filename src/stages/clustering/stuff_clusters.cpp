@@ -1,7 +1,9 @@
 #include "stages/clustering/stuff_clusters.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "geometry/cell_sums.hpp"
 
@@ -40,16 +42,16 @@ PointSpans points_of(OrganizedCloud const& cloud, std::size_t begin, std::size_t
 std::vector<StuffCluster> stuff_clusters(OrganizedCloud const& cloud, LabelMap const& labels,
                                          Grid<std::uint8_t> const& firm, Se3 const& T_world_camera,
                                          float spacing_m) {
-  auto const is_firm = [&](std::size_t i) { return firm.empty() || firm[i] != 0; };
   std::vector<Gathered> gathered;
+  std::vector<std::uint8_t> const all_firm(static_cast<std::size_t>(labels.width()), 1);
   for (int v = 0; v < labels.height(); ++v) {
     std::span<LabelCode const> const codes = labels.row(v);
+    std::uint8_t const* const is_firm = firm.empty() ? all_firm.data() : firm.row(v).data();
     for (std::size_t begin = 0; begin < codes.size();) {
       LabelCode const code = codes[begin];
-      std::size_t const first = labels.index({0, v}) + begin;
+      std::uint8_t const first_is_firm = is_firm[begin];
       std::size_t end = begin + 1;
-      while (end < codes.size() && codes[end] == code &&
-             is_firm(first + end - begin) == is_firm(first)) {
+      while (end < codes.size() && codes[end] == code && is_firm[end] == first_is_firm) {
         ++end;
       }
       if (is_stuff(code)) {
@@ -58,8 +60,8 @@ std::vector<StuffCluster> stuff_clusters(OrganizedCloud const& cloud, LabelMap c
           gathered.push_back({.cells = CellSums(spacing_m, T_world_camera)});
         }
         gathered[i].pixel_count += end - begin;
-        if (is_firm(first)) {
-          gathered[i].cells.add(points_of(cloud, first, end - begin));
+        if (first_is_firm != 0) {
+          gathered[i].cells.add(points_of(cloud, labels.index({0, v}) + begin, end - begin));
         }
       }
       begin = end;

@@ -231,21 +231,6 @@ void worth_row_lanes(std::int16_t const* disparity, std::uint8_t const* thicknes
   }
 }
 
-void front_row_lanes(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
-                     std::size_t count, std::uint8_t* out) {
-  D8 const d;
-  // a >= b where max(a, b) == a.
-  auto const bound = hn::Set(d, least);
-  for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
-    std::uint8_t const* const at = centre + u;
-    auto const beside = hn::Max(hn::LoadU(d, at - 1), hn::LoadU(d, at + 1));
-    auto const most =
-        hn::Max(beside, hn::Max(hn::LoadU(d, at - stride), hn::LoadU(d, at + stride)));
-    auto const is_front = hn::And(hn::Max(most, bound) == most, hn::LoadU(d, at) == hn::Zero(d));
-    hn::StoreU(hn::IfThenElseZero(is_front, most), d, out + u);
-  }
-}
-
 template <class D>
 HWY_INLINE std::uint64_t bits_of(D d, hn::Mask<D> mask) {
   alignas(8) std::uint8_t bytes[8] = {};
@@ -295,6 +280,22 @@ void at_least_bits_lanes(std::uint8_t const* row, std::uint8_t least, std::size_
       out);
 }
 
+void front_bits_lanes(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
+                      std::size_t count, std::uint64_t* out) {
+  D8 const d;
+  auto const bound = hn::Set(d, least);
+  store_bits(
+      d, count,
+      [&](std::size_t u) HWY_ATTR {
+        std::uint8_t const* const at = centre + u;
+        auto const beside = hn::Max(hn::LoadU(d, at - 1), hn::LoadU(d, at + 1));
+        auto const most =
+            hn::Max(beside, hn::Max(hn::LoadU(d, at - stride), hn::LoadU(d, at + stride)));
+        return hn::And(hn::Max(most, bound) == most, hn::LoadU(d, at) == hn::Zero(d));
+      },
+      out);
+}
+
 }  // namespace credo::segments::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -307,9 +308,9 @@ HWY_EXPORT(concavity_row_lanes);
 HWY_EXPORT(crease_row_lanes);
 HWY_EXPORT(thicken_row_lanes);
 HWY_EXPORT(worth_row_lanes);
-HWY_EXPORT(front_row_lanes);
 HWY_EXPORT(different_bits_lanes);
 HWY_EXPORT(at_least_bits_lanes);
+HWY_EXPORT(front_bits_lanes);
 
 void disparity_row(float const* depth_m, std::size_t count, float units_m, std::int16_t* out) {
   HWY_DYNAMIC_DISPATCH(disparity_row_lanes)(depth_m, count, units_m, out);
@@ -342,11 +343,6 @@ void worth_row(std::int16_t const* disparity, std::uint8_t const* thickness, std
   HWY_DYNAMIC_DISPATCH(worth_row_lanes)(disparity, thickness, count, out);
 }
 
-void front_row(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
-               std::size_t count, std::uint8_t* out) {
-  HWY_DYNAMIC_DISPATCH(front_row_lanes)(centre, stride, least, count, out);
-}
-
 void different_bits(std::int32_t const* a, std::int32_t const* b, std::size_t count,
                     std::uint64_t* out) {
   HWY_DYNAMIC_DISPATCH(different_bits_lanes)(a, b, count, out);
@@ -355,6 +351,11 @@ void different_bits(std::int32_t const* a, std::int32_t const* b, std::size_t co
 void at_least_bits(std::uint8_t const* row, std::uint8_t least, std::size_t count,
                    std::uint64_t* out) {
   HWY_DYNAMIC_DISPATCH(at_least_bits_lanes)(row, least, count, out);
+}
+
+void front_bits(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
+                std::size_t count, std::uint64_t* out) {
+  HWY_DYNAMIC_DISPATCH(front_bits_lanes)(centre, stride, least, count, out);
 }
 
 }  // namespace credo::segments

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -38,8 +37,7 @@ public:
         limits_(limits),
         labels_(map.width(), map.height(), PartLabels::kFewMarginRows),
         worth_(map.width(), map.height(), PartLabels::kFewMarginRows),
-        enough_(map.width()),
-        candidates_(static_cast<std::size_t>(map.width()) + PartLabels::kMargin),
+        bits_(map.width()),
         neighbours_({-1, 1, static_cast<Position>(-labels_.stride()),
                      static_cast<Position>(labels_.stride())}) {
     for (int v = 0; v < map.height(); ++v) {
@@ -76,11 +74,11 @@ private:
   /// The runs of a row, joined with those of the row before, which begin at `above`.
   void add_runs(int v, std::uint8_t least, std::size_t above) {
     int const width = map_.width();
-    at_least_bits(worth_.row(v), least, static_cast<std::size_t>(width), enough_.data());
+    at_least_bits(worth_.row(v), least, static_cast<std::size_t>(width), bits_.data());
     std::size_t const row_begin = runs_.size();
-    for (int u = enough_.next_set(0); u < width; u = enough_.next_set(u)) {
+    for (int u = bits_.next_set(0); u < width; u = bits_.next_set(u)) {
       Run run{v, u, u, static_cast<std::int32_t>(runs_.size())};
-      u = enough_.next_clear(u);
+      u = bits_.next_clear(u);
       run.end = u;
       runs_.push_back(run);
       for (; above < row_begin && runs_[above].begin < run.end; ++above) {
@@ -131,15 +129,11 @@ private:
     Position const stride = neighbours_[3];
     for (int v = 0; v < map_.height(); ++v) {
       std::int32_t const* const labels = labels_.row(v);
-      front_row(worth_.row(v), stride, least, static_cast<std::size_t>(map_.width()),
-                candidates_.data());
-      for (int u = 0; u < map_.width(); u += 8) {
-        std::uint64_t eight = 0;
-        std::memcpy(&eight, candidates_.data() + u, sizeof eight);
-        for (int i = u; eight != 0 && i < std::min(u + 8, map_.width()); ++i) {
-          if (candidates_[static_cast<std::size_t>(i)] != 0 && labels[i] != 0) {
-            visit(v * stride + i);
-          }
+      front_bits(worth_.row(v), stride, least, static_cast<std::size_t>(map_.width()),
+                 bits_.data());
+      for (int u = bits_.next_set(0); u < map_.width(); u = bits_.next_set(u + 1)) {
+        if (labels[u] != 0) {
+          visit(v * stride + u);
         }
       }
     }
@@ -193,8 +187,7 @@ private:
   Limits const& limits_;
   PartLabels labels_;
   PaddedGrid<std::uint8_t> worth_;
-  RowBits enough_;
-  std::vector<std::uint8_t> candidates_;
+  RowBits bits_;
   /// In the order in which fronts advance.
   std::array<Position, 4> neighbours_;
   std::int32_t next_ = 1;

@@ -25,12 +25,12 @@ public:
         stride_(width + 2 * kMargin),
         data_(new T[static_cast<std::size_t>(stride_) *
                     static_cast<std::size_t>(height + 2 * margin_rows)]) {
-    std::fill(row(-margin_rows) - kMargin, row(0) - kMargin, T{});
+    // The margins behind a row and before the next are side by side.
+    std::fill(row(-margin_rows) - kMargin, row(0), T{});
     for (int v = 0; v < height; ++v) {
-      std::fill(row(v) - kMargin, row(v), T{});
-      end_row(v);
+      std::fill(row(v) + width_, row(v) + stride_, T{});
     }
-    std::fill(row(height) - kMargin, row(height + margin_rows) - kMargin, T{});
+    std::fill(row(height), row(height + margin_rows) - kMargin, T{});
   }
 
   [[nodiscard]] int width() const { return width_; }
@@ -41,7 +41,7 @@ public:
   [[nodiscard]] T* row(int v) { return data_.get() + origin(v); }
   [[nodiscard]] T const* row(int v) const { return data_.get() + origin(v); }
   /// Clears what a vector wrote beyond the row's last pixel.
-  void end_row(int v) { std::fill(row(v) + width_, row(v) + width_ + kMargin, T{}); }
+  void end_row(int v) { std::fill(row(v) + width_, row(v) + stride_ - kMargin, T{}); }
 
 private:
   [[nodiscard]] std::ptrdiff_t origin(int v) const {
