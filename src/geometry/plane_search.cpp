@@ -204,7 +204,7 @@ std::optional<FoundPlane> find_largest_plane(PlaneSearchPoints const& points,
     if (!plane) {
       continue;
     }
-    std::size_t const count = count_belonging({*plane, limits.max_angle_rad}, scored);
+    std::size_t const count = count_belonging({*plane, limits.max_angle_rad}, scored, best_count);
     if (!best || count > best_count) {
       best = plane;
       best_count = count;

@@ -1,5 +1,7 @@
 #include "geometry/plane_search_kernels.hpp"
 
+#include <algorithm>
+
 // This file is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "geometry/plane_search_kernels.cpp"  // NOLINT(*-macro-usage): Highway
@@ -36,15 +38,21 @@ HWY_INLINE M belonging(FloatPlane const& plane, PlaneSearchPoints const& points,
   return hn::AndNot(turned, near);
 }
 
-std::size_t count_lanes(FloatPlane const& plane, PlaneSearchPoints const& points) {
+std::size_t count_lanes(FloatPlane const& plane, PlaneSearchPoints const& points,
+                        std::size_t to_beat) {
   D const d;
+  // So often it is asked whether the count can still be the largest.
+  constexpr std::size_t kStep = 256;
   std::size_t count = 0;
   std::size_t i = 0;
-  for (; i + hn::Lanes(d) <= points.size(); i += hn::Lanes(d)) {
-    count += hn::CountTrue(d, belonging(plane, points, i));
-  }
-  for (; i < points.size(); ++i) {
-    count += belongs(plane, points, i);
+  while (i < points.size() && count + points.size() - i > to_beat) {
+    std::size_t const end = std::min(i + kStep, points.size());
+    for (; i + hn::Lanes(d) <= end; i += hn::Lanes(d)) {
+      count += hn::CountTrue(d, belonging(plane, points, i));
+    }
+    for (; i < end; ++i) {
+      count += belongs(plane, points, i);
+    }
   }
   return count;
 }
@@ -87,8 +95,9 @@ FloatPlane::FloatPlane(Plane const& plane, double max_angle_rad)
       // Above a right angle every |cosine| passes.
       min_cosine(max_angle_rad < 1.5707963 ? static_cast<float>(std::cos(max_angle_rad)) : -1.0F) {}
 
-std::size_t count_belonging(FloatPlane const& plane, PlaneSearchPoints const& points) {
-  return HWY_DYNAMIC_DISPATCH(count_lanes)(plane, points);
+std::size_t count_belonging(FloatPlane const& plane, PlaneSearchPoints const& points,
+                            std::size_t to_beat) {
+  return HWY_DYNAMIC_DISPATCH(count_lanes)(plane, points, to_beat);
 }
 
 std::size_t mark_belonging(FloatPlane const& plane, PlaneSearchPoints const& points,

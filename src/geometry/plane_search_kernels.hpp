@@ -31,10 +31,11 @@ struct FloatPlane {
   return near && !turned ? 1 : 0;
 }
 
-/// How many of the points belong to the plane.
-[[nodiscard]] std::size_t count_belonging(FloatPlane const& plane, PlaneSearchPoints const& points);
+/// How many of the points belong to the plane, or no more than `to_beat` where it is no more.
+[[nodiscard]] std::size_t count_belonging(FloatPlane const& plane, PlaneSearchPoints const& points,
+                                          std::size_t to_beat);
 
-/// The same, and 1 or 0 for each point in `flags`.
+/// How many of the points belong to the plane; for each 1 or 0 in `flags`.
 std::size_t mark_belonging(FloatPlane const& plane, PlaneSearchPoints const& points,
                            std::span<std::uint8_t> flags);
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <vector>
 
 #include "geometry/plane_search_kernels.hpp"
 
@@ -151,7 +152,24 @@ TEST(InliersOf, AreThoseThatEachTellsByItself) {
         belonging += found.inliers[i];
       }
       EXPECT_EQ(found.inlier_count, belonging);
-      EXPECT_EQ(plane_search::count_belonging(plane, points), belonging);
+      EXPECT_EQ(plane_search::count_belonging(plane, points, 0), belonging);
+    }
+  }
+}
+
+TEST(PlaneSearchKernels, CountInFullWhatBeatsTheBest) {
+  PlaneSearchPoints points;
+  add_plane(points, tilted_plane(), 700, 0.01, 1);
+  add_clutter(points, 900, 2);
+  plane_search::FloatPlane const plane(tilted_plane(), 0.3);
+  std::size_t const all = plane_search::count_belonging(plane, points, 0);
+  EXPECT_GT(all, 500U);
+  for (std::size_t to_beat = 0; to_beat < points.size(); to_beat += 50) {
+    std::size_t const count = plane_search::count_belonging(plane, points, to_beat);
+    if (all > to_beat) {
+      EXPECT_EQ(count, all);
+    } else {
+      EXPECT_LE(count, to_beat);
     }
   }
 }
@@ -171,6 +189,37 @@ TEST(FitPlane, WeighsPointsByTheirTolerance) {
   // 1 : 100 in weight.
   EXPECT_NEAR(plane->offset_m, 0.3 / 101.0, 1e-6);
   EXPECT_NEAR(fit_plane(points, all, -Eigen::Vector3d::UnitZ())->offset_m, -0.3 / 101.0, 1e-6);
+}
+
+TEST(PlaneSearchPoints, KeepsWhatIsNotRemovedInAllColumns) {
+  std::mt19937 random(5);
+  for (std::uint32_t count = 0; count < 70; ++count) {
+    PlaneSearchPoints points;
+    std::vector<std::uint8_t> removed;
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      auto const value = static_cast<float>(i);
+      points.add({value, value + 100, value + 200}, {value + 300, value + 400, value + 500},
+                 value + 600, i);
+      removed.push_back(random() % 3 == 0 ? 0 : 1);
+      if (removed.back() == 0) {
+        kept.push_back(i);
+      }
+    }
+    points.remove(removed);
+    EXPECT_EQ(points.source, kept);
+    ASSERT_EQ(points.size(), kept.size());
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      auto const value = static_cast<float>(kept[k]);
+      EXPECT_EQ(points.x[k], value);
+      EXPECT_EQ(points.y[k], value + 100);
+      EXPECT_EQ(points.z[k], value + 200);
+      EXPECT_EQ(points.normal_x[k], value + 300);
+      EXPECT_EQ(points.normal_y[k], value + 400);
+      EXPECT_EQ(points.normal_z[k], value + 500);
+      EXPECT_EQ(points.tolerance_m[k], value + 600);
+    }
+  }
 }
 
 TEST(PlaneSearchPoints, KeepsTheOrderOfWhatRemains) {

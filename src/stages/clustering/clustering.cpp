@@ -149,6 +149,7 @@ Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals, Segment
       has_segments ? firm_pixels(frame.cloud_camera.z, labels) : Grid<std::uint8_t>();
   segmentation.stuff = stuff_clusters(frame.cloud_camera, labels, firm, segmentation.T_world_camera,
                                       static_cast<float>(config.point_spacing_m));
+  segmentation.segments = {};
   return segmentation;
 }
 

@@ -29,16 +29,33 @@ struct Owners {
   }
 };
 
+/// Calls `visit(segment, begin, end)` for pixels side by side that have one label and are of one
+/// segment.
+template <typename Visit>
+void for_each_run(Segmentation const& segmentation, Visit const& visit) {
+  LabelCode const* const labels = segmentation.labels.data();
+  std::int32_t const* const segments = segmentation.segments.labels.data();
+  std::size_t const size = segmentation.labels.size();
+  for (std::size_t begin = 0; begin < size;) {
+    std::size_t end = begin + 1;
+    while (end < size && labels[end] == labels[begin] && segments[end] == segments[begin]) {
+      ++end;
+    }
+    visit(static_cast<std::size_t>(segments[begin]), begin, end);
+    begin = end;
+  }
+}
+
 std::vector<Owners> owners_of(Segmentation const& segmentation) {
   std::vector<Owners> owners(segmentation.segments.pixel_counts.size() + 1);
-  for (std::size_t i = 0; i < segmentation.labels.size(); ++i) {
-    Owners& owner = owners[static_cast<std::size_t>(segmentation.segments.labels[i])];
-    LabelCode const label = segmentation.labels[i];
-    owner.pixels += 1;
+  for_each_run(segmentation, [&](std::size_t segment, std::size_t begin, std::size_t end) {
+    auto const pixels = static_cast<std::uint32_t>(end - begin);
+    LabelCode const label = segmentation.labels[begin];
+    owners[segment].pixels += pixels;
     if (is_object(label)) {
-      ++owner.objects[label];
+      owners[segment].objects[label] += pixels;
     }
-  }
+  });
   return owners;
 }
 
@@ -59,17 +76,17 @@ Segmentation settle_objects(Segmentation segmentation) {
   }
   std::vector<Owners> const owners = owners_of(segmentation);
   std::map<LabelCode, std::size_t> pixel_counts;
-  for (std::size_t i = 0; i < segmentation.labels.size(); ++i) {
-    auto const segment = static_cast<std::size_t>(segmentation.segments.labels[i]);
-    LabelCode& label = segmentation.labels[i];
+  for_each_run(segmentation, [&](std::size_t segment, std::size_t begin, std::size_t end) {
+    LabelCode label = segmentation.labels[begin];
     // Segment 0 is what belongs to none.
     if (segment > 0 && !owners[segment].objects.empty()) {
       label = settled(label, owners[segment]);
+      std::fill(segmentation.labels.data() + begin, segmentation.labels.data() + end, label);
     }
     if (is_object(label)) {
-      ++pixel_counts[label];
+      pixel_counts[label] += end - begin;
     }
-  }
+  });
   for (ObjectObservation& object : segmentation.objects) {
     object.pixel_count = pixel_counts[object.label];
   }
