@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/runs.hpp"
 #include "geometry/reachability.hpp"
 #include "stages/clustering/firm_pixels.hpp"
 #include "stages/clustering/label_spreading.hpp"
@@ -52,22 +54,19 @@ Runs segment_components(Segmentation const& segmentation) {
   std::int32_t count = 0;
   Runs runs;
   for (int v = 0; v < labels.height(); ++v) {
-    LabelCode const* const label = labels.row(v).data();
-    std::int32_t const* const segment_at = segments.row(v).data();
-    for (int u = 0; u < labels.width();) {
-      std::int32_t const segment = segment_at[u];
-      int const begin = u;
-      while (u < labels.width() && label[u] == kUnassigned && segment_at[u] == segment) {
-        ++u;
+    std::span<LabelCode const> const label = labels.row(v);
+    std::span<std::int32_t const> const segment = segments.row(v);
+    for_each_run(label, segment, [&](std::size_t begin, std::size_t end) {
+      if (label[begin] != kUnassigned || segment[begin] == 0) {
+        return;
       }
-      if (u == begin || segment == 0) {
-        u = std::max(u, begin + 1);
-        continue;
-      }
-      std::int32_t& number = number_of[static_cast<std::size_t>(segment)];
+      std::int32_t& number = number_of[static_cast<std::size_t>(segment[begin])];
       number = number < 0 ? count++ : number;
-      runs.push_back({.v = v, .begin = begin, .end = u, .component = number});
-    }
+      runs.push_back({.v = v,
+                      .begin = static_cast<int>(begin),
+                      .end = static_cast<int>(end),
+                      .component = number});
+    });
   }
   return runs;
 }

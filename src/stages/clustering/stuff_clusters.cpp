@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/runs.hpp"
 #include "geometry/cell_sums.hpp"
 
 namespace credo {
@@ -46,26 +47,21 @@ std::vector<StuffCluster> stuff_clusters(OrganizedCloud const& cloud, LabelMap c
   std::vector<std::uint8_t> const all_firm(static_cast<std::size_t>(labels.width()), 1);
   for (int v = 0; v < labels.height(); ++v) {
     std::span<LabelCode const> const codes = labels.row(v);
-    std::uint8_t const* const is_firm = firm.empty() ? all_firm.data() : firm.row(v).data();
-    for (std::size_t begin = 0; begin < codes.size();) {
-      LabelCode const code = codes[begin];
-      std::uint8_t const first_is_firm = is_firm[begin];
-      std::size_t end = begin + 1;
-      while (end < codes.size() && codes[end] == code && is_firm[end] == first_is_firm) {
-        ++end;
+    std::span<std::uint8_t const> const is_firm =
+        firm.empty() ? std::span<std::uint8_t const>(all_firm) : firm.row(v);
+    for_each_run(codes, is_firm, [&](std::size_t begin, std::size_t end) {
+      if (!is_stuff(codes[begin])) {
+        return;
       }
-      if (is_stuff(code)) {
-        std::size_t const i = code - kFirstStuff;
-        while (gathered.size() <= i) {
-          gathered.push_back({.cells = CellSums(spacing_m, T_world_camera)});
-        }
-        gathered[i].pixel_count += end - begin;
-        if (first_is_firm != 0) {
-          gathered[i].cells.add(points_of(cloud, labels.index({0, v}) + begin, end - begin));
-        }
+      std::size_t const i = codes[begin] - kFirstStuff;
+      while (gathered.size() <= i) {
+        gathered.push_back({.cells = CellSums(spacing_m, T_world_camera)});
       }
-      begin = end;
-    }
+      gathered[i].pixel_count += end - begin;
+      if (is_firm[begin] != 0) {
+        gathered[i].cells.add(points_of(cloud, labels.index({0, v}) + begin, end - begin));
+      }
+    });
   }
   std::vector<StuffCluster> clusters(gathered.size());
   for (std::size_t i = 0; i < gathered.size(); ++i) {

@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
+#include "core/runs.hpp"
 #include "geometry/segment_shares.hpp"
 
 namespace credo {
@@ -32,23 +34,17 @@ struct Owners {
 /// Calls `visit(segment, begin, end)` for pixels side by side that have one label and are of one
 /// segment.
 template <typename Visit>
-void for_each_run(Segmentation const& segmentation, Visit const& visit) {
-  LabelCode const* const labels = segmentation.labels.data();
-  std::int32_t const* const segments = segmentation.segments.labels.data();
-  std::size_t const size = segmentation.labels.size();
-  for (std::size_t begin = 0; begin < size;) {
-    std::size_t end = begin + 1;
-    while (end < size && labels[end] == labels[begin] && segments[end] == segments[begin]) {
-      ++end;
-    }
-    visit(static_cast<std::size_t>(segments[begin]), begin, end);
-    begin = end;
-  }
+void for_each_piece(Segmentation const& segmentation, Visit const& visit) {
+  std::span<std::int32_t const> const segments(segmentation.segments.labels);
+  for_each_run(std::span<LabelCode const>(segmentation.labels), segments,
+               [&](std::size_t begin, std::size_t end) {
+                 visit(static_cast<std::size_t>(segments[begin]), begin, end);
+               });
 }
 
 std::vector<Owners> owners_of(Segmentation const& segmentation) {
   std::vector<Owners> owners(segmentation.segments.pixel_counts.size() + 1);
-  for_each_run(segmentation, [&](std::size_t segment, std::size_t begin, std::size_t end) {
+  for_each_piece(segmentation, [&](std::size_t segment, std::size_t begin, std::size_t end) {
     auto const pixels = static_cast<std::uint32_t>(end - begin);
     LabelCode const label = segmentation.labels[begin];
     owners[segment].pixels += pixels;
@@ -76,7 +72,7 @@ Segmentation settle_objects(Segmentation segmentation) {
   }
   std::vector<Owners> const owners = owners_of(segmentation);
   std::map<LabelCode, std::size_t> pixel_counts;
-  for_each_run(segmentation, [&](std::size_t segment, std::size_t begin, std::size_t end) {
+  for_each_piece(segmentation, [&](std::size_t segment, std::size_t begin, std::size_t end) {
     LabelCode label = segmentation.labels[begin];
     // Segment 0 is what belongs to none.
     if (segment > 0 && !owners[segment].objects.empty()) {
