@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/cell_sums.hpp"
 #include "geometry/segment_shares.hpp"
 #include "geometry/thinning.hpp"
 #include "stages/planes/pixel_boxes.hpp"
@@ -239,15 +240,18 @@ bool is_wall(View const& view, PixelPlane const& plane) {
 /// Writes the label on the plane's pixels and returns their world points, thinned.
 PointList label_pixels(View const& view, PixelPlane const& plane, LabelCode code,
                        LabelMap& labels) {
-  Eigen::Matrix3f const rotation = view.T_world_camera.rotation().toRotationMatrix().cast<float>();
-  Eigen::Vector3f const translation = view.T_world_camera.translation().cast<float>();
-  PointList points;
-  points.reserve(plane.inliers.count);
-  plane.inliers.pixels.for_each([&](std::size_t i) {
-    labels[i] = code;
-    points.emplace_back(rotation * view.cloud.at(i) + translation);
+  CellSums cells(static_cast<float>(view.config.point_spacing_m), view.T_world_camera);
+  auto const run_of = [](Grid<float> const& grid, std::size_t begin, std::size_t end) {
+    return std::span<float const>(grid.data() + begin, end - begin);
+  };
+  plane.inliers.pixels.for_each_run([&](std::size_t begin, std::size_t end) {
+    std::fill(labels.data() + begin, labels.data() + end, code);
+    cells.add({run_of(view.cloud.x, begin, end), run_of(view.cloud.y, begin, end),
+               run_of(view.cloud.z, begin, end)});
   });
-  return thin_points(points, static_cast<float>(view.config.point_spacing_m));
+  PointList points;
+  cells.append_means(0, points);
+  return points;
 }
 
 void add_floor(View const& view, PixelPlane plane, Segmentation& segmentation) {
