@@ -1,6 +1,7 @@
 #include "geometry/plane_search.hpp"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <cmath>
 #include <limits>
@@ -135,7 +136,7 @@ TEST(InliersOf, JudgesPointsWithoutNormalByDistanceAlone) {
   EXPECT_EQ(inliers_of(floor, points, 3.15).inliers, (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 1}));
 }
 
-TEST(InliersOf, AreThoseThatEachTellsByItself) {
+void expect_that_each_tells_by_itself() {
   for (int count = 0; count < 40; ++count) {
     PlaneSearchPoints points;
     add_plane(points, tilted_plane(), count, 0.01, 1);
@@ -155,6 +156,17 @@ TEST(InliersOf, AreThoseThatEachTellsByItself) {
       EXPECT_EQ(plane_search::count_belonging(plane, points, 0), belonging);
     }
   }
+}
+
+TEST(InliersOf, AreThoseThatEachTellsByItselfOnEveryInstructionSet) {
+  for (std::int64_t const target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    expect_that_each_tells_by_itself();
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 TEST(PlaneSearchKernels, CountInFullWhatBeatsTheBest) {

@@ -1,6 +1,7 @@
 #include "stages/planes/pixel_boxes.hpp"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ PixelSet valid_pixels(OrganizedCloud const& cloud) {
   return pixels_where(cloud.size(), [&](std::size_t i) { return cloud.valid(i); }).pixels;
 }
 
-TEST(PixelBoxes, LeaveNoInlierOut) {
+void expect_no_inlier_left_out() {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::size_t words = 0;
@@ -53,6 +54,17 @@ TEST(PixelBoxes, LeaveNoInlierOut) {
     }
   }
   EXPECT_LT(4 * near_words, words);
+}
+
+TEST(PixelBoxes, LeaveNoInlierOutOnEveryInstructionSet) {
+  for (std::int64_t const target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    expect_no_inlier_left_out();
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 TEST(PixelBoxes, KeepWhatLiesOnTheLimitToTheBit) {
