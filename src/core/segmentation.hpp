@@ -93,7 +93,7 @@ struct Segmentation {
   bool floor_at_zero = true;
   LabelMap labels;
   /// The frame in pieces that are one thing each, told from depth alone. Empty where the config
-  /// leaves them out: then clusters are grown from points and normals.
+  /// leaves them out: then clusters are grown from points and normals. And once all is clustered.
   Segments segments;
   std::optional<FloorObservation> floor;
   std::vector<WallObservation> walls;

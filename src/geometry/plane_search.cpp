@@ -7,58 +7,57 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/plane_search_kernels.hpp"
+
 namespace credo {
 namespace {
 
-/// A plane in single precision, as the inner loops use it.
-struct FloatPlane {
-  float normal_x, normal_y, normal_z, offset_m, min_cosine;
+using plane_search::count_belonging;
+using plane_search::mark_belonging;
 
-  FloatPlane(Plane const& plane, double max_angle_rad)
-      : normal_x(static_cast<float>(plane.normal.x())),
-        normal_y(static_cast<float>(plane.normal.y())),
-        normal_z(static_cast<float>(plane.normal.z())),
-        offset_m(static_cast<float>(plane.offset_m)),
-        // Above a right angle every |cosine| passes.
-        min_cosine(max_angle_rad < 1.5707963 ? static_cast<float>(std::cos(max_angle_rad))
-                                             : -1.0F) {}
-};
+using Positions = std::vector<std::uint32_t>;
 
-/// 1 where the point belongs to the plane, else 0. A NaN normal fails no comparison, so it passes.
-/// All in 32 bits, so that loops vectorise.
-inline std::int32_t belongs(FloatPlane const& plane, PlaneSearchPoints const& points,
-                            std::size_t i) {
-  float const distance = plane.normal_x * points.x[i] + plane.normal_y * points.y[i] +
-                         plane.normal_z * points.z[i] - plane.offset_m;
-  float const cosine = plane.normal_x * points.normal_x[i] + plane.normal_y * points.normal_y[i] +
-                       plane.normal_z * points.normal_z[i];
-  std::int32_t const near = std::fabs(distance) <= points.tolerance_m[i] ? 1 : 0;
-  std::int32_t const turned = std::fabs(cosine) < plane.min_cosine ? 1 : 0;
-  return near & (turned ^ 1);
+/// The positions at which the flag has that value, in their order.
+Positions positions_where(std::span<std::uint8_t const> flags, bool value) {
+  Positions positions(flags.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    positions[count] = static_cast<std::uint32_t>(i);
+    count += (flags[i] != 0) == value ? 1 : 0;
+  }
+  positions.resize(count);
+  return positions;
+}
+
+/// The points at those positions, which rise; `to` and `from` may be the same.
+void gather(PlaneSearchPoints const& from, Positions const& positions, PlaneSearchPoints& to) {
+  // A column at a time: many loads are then under way at once.
+  auto const column = [&](auto const& source, auto& target) {
+    target.resize(std::max(target.size(), positions.size()));
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      target[i] = source[positions[i]];
+    }
+    target.resize(positions.size());
+  };
+  column(from.x, to.x);
+  column(from.y, to.y);
+  column(from.z, to.z);
+  column(from.normal_x, to.normal_x);
+  column(from.normal_y, to.normal_y);
+  column(from.normal_z, to.normal_z);
+  column(from.tolerance_m, to.tolerance_m);
+  column(from.source, to.source);
 }
 
 /// At most `count` points, evenly spread over the list.
 PlaneSearchPoints spread_subset(PlaneSearchPoints const& points, std::size_t count) {
+  Positions positions(std::min(count, points.size()));
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    positions[k] = static_cast<std::uint32_t>(k * points.size() / positions.size());
+  }
   PlaneSearchPoints subset;
-  std::size_t const kept = std::min(count, points.size());
-  subset.reserve(kept);
-  for (std::size_t k = 0; k < kept; ++k) {
-    std::size_t const i = k * points.size() / kept;
-    subset.add({points.x[i], points.y[i], points.z[i]},
-               {points.normal_x[i], points.normal_y[i], points.normal_z[i]}, points.tolerance_m[i],
-               points.source[i]);
-  }
+  gather(points, positions, subset);
   return subset;
-}
-
-std::size_t count_inliers(Plane const& plane, PlaneSearchPoints const& points,
-                          double max_angle_rad) {
-  FloatPlane const p(plane, max_angle_rad);
-  std::int32_t count = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    count += belongs(p, points, i);
-  }
-  return static_cast<std::size_t>(count);
 }
 
 Eigen::Vector3d point_at(PlaneSearchPoints const& points, std::size_t i) {
@@ -136,55 +135,46 @@ void PlaneSearchPoints::add(Eigen::Vector3f const& point, Eigen::Vector3f const&
 }
 
 void PlaneSearchPoints::remove(std::span<std::uint8_t const> removed) {
-  auto const compact = [&removed](auto& column) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < column.size(); ++i) {
-      column[kept] = column[i];
-      kept += removed[i] == 0 ? 1 : 0;
-    }
-    column.resize(kept);
-  };
-  for (auto* column : {&x, &y, &z, &normal_x, &normal_y, &normal_z, &tolerance_m}) {
-    compact(*column);
-  }
-  compact(source);
+  gather(*this, positions_where(removed, false), *this);
 }
 
 FoundPlane inliers_of(Plane const& plane, PlaneSearchPoints const& points, double max_angle_rad) {
-  FloatPlane const p(plane, max_angle_rad);
   FoundPlane found{plane, std::vector<std::uint8_t>(points.size()), 0};
-  std::int32_t count = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::int32_t const inlier = belongs(p, points, i);
-    found.inliers[i] = static_cast<std::uint8_t>(inlier);
-    count += inlier;
-  }
-  found.inlier_count = static_cast<std::size_t>(count);
+  found.inlier_count = mark_belonging({plane, max_angle_rad}, points, found.inliers);
   return found;
 }
 
 std::optional<Plane> fit_plane(PlaneSearchPoints const& points, std::span<std::uint8_t const> flags,
                                Eigen::Vector3d const& normal_hint) {
   double weight_sum = 0.0;
-  std::size_t count = 0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (flags[i] == 0) {
-      continue;
-    }
-    double const weight =
-        1.0 / (static_cast<double>(points.tolerance_m[i]) * points.tolerance_m[i]);
+  double xx = 0.0;
+  double yx = 0.0;
+  double yy = 0.0;
+  double zx = 0.0;
+  double zy = 0.0;
+  double zz = 0.0;
+  Positions const flagged = positions_where(flags, true);
+  for (std::size_t const i : flagged) {
     Eigen::Vector3d const p = point_at(points, i);
+    double const tolerance_m = points.tolerance_m[i];
+    double const weight = 1.0 / (tolerance_m * tolerance_m);
+    Eigen::Vector3d const weighted = weight * p;
     weight_sum += weight;
-    ++count;
-    sum += weight * p;
-    squares += weight * p * p.transpose();
+    sum += weighted;
+    xx += weighted.x() * p.x();
+    yx += weighted.y() * p.x();
+    yy += weighted.y() * p.y();
+    zx += weighted.z() * p.x();
+    zy += weighted.z() * p.y();
+    zz += weighted.z() * p.z();
   }
-  if (count < 3) {
+  if (flagged.size() < 3) {
     return std::nullopt;
   }
   Eigen::Vector3d const mean = sum / weight_sum;
+  Eigen::Matrix3d squares;
+  squares << xx, yx, zx, yx, yy, zy, zx, zy, zz;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(squares / weight_sum - mean * mean.transpose());
   // Points on one line leave the normal open.
@@ -214,7 +204,7 @@ std::optional<FoundPlane> find_largest_plane(PlaneSearchPoints const& points,
     if (!plane) {
       continue;
     }
-    std::size_t const count = count_inliers(*plane, scored, limits.max_angle_rad);
+    std::size_t const count = count_belonging({*plane, limits.max_angle_rad}, scored, best_count);
     if (!best || count > best_count) {
       best = plane;
       best_count = count;

@@ -1,11 +1,15 @@
 #include "geometry/plane_search.hpp"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <random>
+#include <vector>
+
+#include "geometry/plane_search_kernels.hpp"
 
 namespace credo {
 namespace {
@@ -132,6 +136,56 @@ TEST(InliersOf, JudgesPointsWithoutNormalByDistanceAlone) {
   EXPECT_EQ(inliers_of(floor, points, 3.15).inliers, (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 1}));
 }
 
+void expect_that_each_tells_by_itself() {
+  for (int count = 0; count < 40; ++count) {
+    PlaneSearchPoints points;
+    add_plane(points, tilted_plane(), count, 0.01, 1);
+    add_clutter(points, count % 7, 2);
+    for (int i = 0; i < count; i += 3) {
+      points.normal_x[static_cast<std::size_t>(i)] = kNoNormal;
+    }
+    for (double const max_angle_rad : {0.0, 0.3, 3.15}) {
+      FoundPlane const found = inliers_of(tilted_plane(), points, max_angle_rad);
+      plane_search::FloatPlane const plane(tilted_plane(), max_angle_rad);
+      std::size_t belonging = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        EXPECT_EQ(found.inliers[i], plane_search::belongs(plane, points, i)) << count << ' ' << i;
+        belonging += found.inliers[i];
+      }
+      EXPECT_EQ(found.inlier_count, belonging);
+      EXPECT_EQ(plane_search::count_belonging(plane, points, 0), belonging);
+    }
+  }
+}
+
+TEST(InliersOf, AreThoseThatEachTellsByItselfOnEveryInstructionSet) {
+  for (std::int64_t const target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    expect_that_each_tells_by_itself();
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+TEST(PlaneSearchKernels, CountInFullWhatBeatsTheBest) {
+  PlaneSearchPoints points;
+  add_plane(points, tilted_plane(), 700, 0.01, 1);
+  add_clutter(points, 900, 2);
+  plane_search::FloatPlane const plane(tilted_plane(), 0.3);
+  std::size_t const all = plane_search::count_belonging(plane, points, 0);
+  EXPECT_GT(all, 500U);
+  for (std::size_t to_beat = 0; to_beat < points.size(); to_beat += 50) {
+    std::size_t const count = plane_search::count_belonging(plane, points, to_beat);
+    if (all > to_beat) {
+      EXPECT_EQ(count, all);
+    } else {
+      EXPECT_LE(count, to_beat);
+    }
+  }
+}
+
 TEST(FitPlane, WeighsPointsByTheirTolerance) {
   PlaneSearchPoints points;
   for (int i = 0; i < 4; ++i) {
@@ -147,6 +201,37 @@ TEST(FitPlane, WeighsPointsByTheirTolerance) {
   // 1 : 100 in weight.
   EXPECT_NEAR(plane->offset_m, 0.3 / 101.0, 1e-6);
   EXPECT_NEAR(fit_plane(points, all, -Eigen::Vector3d::UnitZ())->offset_m, -0.3 / 101.0, 1e-6);
+}
+
+TEST(PlaneSearchPoints, KeepsWhatIsNotRemovedInAllColumns) {
+  std::mt19937 random(5);
+  for (std::uint32_t count = 0; count < 70; ++count) {
+    PlaneSearchPoints points;
+    std::vector<std::uint8_t> removed;
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      auto const value = static_cast<float>(i);
+      points.add({value, value + 100, value + 200}, {value + 300, value + 400, value + 500},
+                 value + 600, i);
+      removed.push_back(random() % 3 == 0 ? 0 : 1);
+      if (removed.back() == 0) {
+        kept.push_back(i);
+      }
+    }
+    points.remove(removed);
+    EXPECT_EQ(points.source, kept);
+    ASSERT_EQ(points.size(), kept.size());
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      auto const value = static_cast<float>(kept[k]);
+      EXPECT_EQ(points.x[k], value);
+      EXPECT_EQ(points.y[k], value + 100);
+      EXPECT_EQ(points.z[k], value + 200);
+      EXPECT_EQ(points.normal_x[k], value + 300);
+      EXPECT_EQ(points.normal_y[k], value + 400);
+      EXPECT_EQ(points.normal_z[k], value + 500);
+      EXPECT_EQ(points.tolerance_m[k], value + 600);
+    }
+  }
 }
 
 TEST(PlaneSearchPoints, KeepsTheOrderOfWhatRemains) {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/runs.hpp"
 #include "geometry/reachability.hpp"
 #include "stages/clustering/firm_pixels.hpp"
 #include "stages/clustering/label_spreading.hpp"
@@ -52,20 +54,19 @@ Runs segment_components(Segmentation const& segmentation) {
   std::int32_t count = 0;
   Runs runs;
   for (int v = 0; v < labels.height(); ++v) {
-    for (int u = 0; u < labels.width();) {
-      std::int32_t const segment = segments[{u, v}];
-      int const begin = u;
-      while (u < labels.width() && labels[{u, v}] == kUnassigned && segments[{u, v}] == segment) {
-        ++u;
+    std::span<LabelCode const> const label = labels.row(v);
+    std::span<std::int32_t const> const segment = segments.row(v);
+    for_each_run(label, segment, [&](std::size_t begin, std::size_t end) {
+      if (label[begin] != kUnassigned || segment[begin] == 0) {
+        return;
       }
-      if (u == begin || segment == 0) {
-        u = std::max(u, begin + 1);
-        continue;
-      }
-      std::int32_t& number = number_of[static_cast<std::size_t>(segment)];
+      std::int32_t& number = number_of[static_cast<std::size_t>(segment[begin])];
       number = number < 0 ? count++ : number;
-      runs.push_back({.v = v, .begin = begin, .end = u, .component = number});
-    }
+      runs.push_back({.v = v,
+                      .begin = static_cast<int>(begin),
+                      .end = static_cast<int>(end),
+                      .component = number});
+    });
   }
   return runs;
 }
@@ -147,6 +148,7 @@ Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals, Segment
       has_segments ? firm_pixels(frame.cloud_camera.z, labels) : Grid<std::uint8_t>();
   segmentation.stuff = stuff_clusters(frame.cloud_camera, labels, firm, segmentation.T_world_camera,
                                       static_cast<float>(config.point_spacing_m));
+  segmentation.segments = {};
   return segmentation;
 }
 

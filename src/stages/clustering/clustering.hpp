@@ -34,7 +34,8 @@ FieldList fields(ClusteringConfig& config);
 /// Of segments, centroid, bounds and points leave out single pixels that lie apart (firm_pixels).
 /// A StuffCluster stands for all pixels that carry its label in the end: pixel_count is their
 /// number, centroid (within the bounds) and points are theirs. The entries of floor, walls and
-/// objects stay as they came: they count what made them. Nothing to cluster gives no stuff.
+/// objects stay as they came: they count what made them. Nothing to cluster gives no stuff. The
+/// segments go no further.
 ///
 /// Throws std::logic_error where the sizes differ or `segmentation` already holds stuff.
 [[nodiscard]] Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals,

@@ -1,8 +1,11 @@
 #include "stages/clustering/stuff_clusters.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
+#include "core/runs.hpp"
 #include "geometry/cell_sums.hpp"
 
 namespace credo {
@@ -40,30 +43,25 @@ PointSpans points_of(OrganizedCloud const& cloud, std::size_t begin, std::size_t
 std::vector<StuffCluster> stuff_clusters(OrganizedCloud const& cloud, LabelMap const& labels,
                                          Grid<std::uint8_t> const& firm, Se3 const& T_world_camera,
                                          float spacing_m) {
-  auto const is_firm = [&](std::size_t i) { return firm.empty() || firm[i] != 0; };
   std::vector<Gathered> gathered;
+  std::vector<std::uint8_t> const all_firm(static_cast<std::size_t>(labels.width()), 1);
   for (int v = 0; v < labels.height(); ++v) {
     std::span<LabelCode const> const codes = labels.row(v);
-    for (std::size_t begin = 0; begin < codes.size();) {
-      LabelCode const code = codes[begin];
-      std::size_t const first = labels.index({0, v}) + begin;
-      std::size_t end = begin + 1;
-      while (end < codes.size() && codes[end] == code &&
-             is_firm(first + end - begin) == is_firm(first)) {
-        ++end;
+    std::span<std::uint8_t const> const is_firm =
+        firm.empty() ? std::span<std::uint8_t const>(all_firm) : firm.row(v);
+    for_each_run(codes, is_firm, [&](std::size_t begin, std::size_t end) {
+      if (!is_stuff(codes[begin])) {
+        return;
       }
-      if (is_stuff(code)) {
-        std::size_t const i = code - kFirstStuff;
-        while (gathered.size() <= i) {
-          gathered.push_back({.cells = CellSums(spacing_m, T_world_camera)});
-        }
-        gathered[i].pixel_count += end - begin;
-        if (is_firm(first)) {
-          gathered[i].cells.add(points_of(cloud, first, end - begin));
-        }
+      std::size_t const i = codes[begin] - kFirstStuff;
+      while (gathered.size() <= i) {
+        gathered.push_back({.cells = CellSums(spacing_m, T_world_camera)});
       }
-      begin = end;
-    }
+      gathered[i].pixel_count += end - begin;
+      if (is_firm[begin] != 0) {
+        gathered[i].cells.add(points_of(cloud, labels.index({0, v}) + begin, end - begin));
+      }
+    });
   }
   std::vector<StuffCluster> clusters(gathered.size());
   for (std::size_t i = 0; i < gathered.size(); ++i) {

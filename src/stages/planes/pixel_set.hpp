@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -61,6 +64,20 @@ public:
     }
   }
 
+  /// Calls `visit(begin, end)` for pixels side by side, in raster order; runs end with their word.
+  template <typename Visit>
+  void for_each_run(Visit const& visit) const {
+    for (std::size_t w = 0; w < words_.size(); ++w) {
+      for (std::uint64_t rest = words_[w]; rest != 0;) {
+        auto const first = static_cast<std::size_t>(std::countr_zero(rest));
+        auto const count = static_cast<std::size_t>(std::countr_one(rest >> first));
+        visit(w * kWordBits + first, w * kWordBits + first + count);
+        // What the sum carries over lies beyond the run.
+        rest &= rest + (std::uint64_t{1} << first);
+      }
+    }
+  }
+
 private:
   std::vector<std::uint64_t> words_;
 };
@@ -75,11 +92,49 @@ struct CountedPixels {
     pixels.insert(pixel);
     ++count;
   }
+  /// Some of a word, none of which are among them yet.
+  void insert(std::size_t word, std::uint64_t bits) {
+    pixels.words()[word] |= bits;
+    count += static_cast<std::size_t>(std::popcount(bits));
+  }
+  /// Others, none of which are among them yet.
+  void insert(CountedPixels const& others) {
+    for (std::size_t w = 0; w < pixels.words().size(); ++w) {
+      pixels.words()[w] |= others.pixels.words()[w];
+    }
+    count += others.count;
+  }
   /// Takes out some of them: `others` must be a part of these.
   void remove(CountedPixels const& others) {
     pixels.remove(others.pixels);
     count -= others.count;
   }
 };
+
+/// The pixels of an image of so many that pass.
+template <typename Test>
+CountedPixels pixels_where(std::size_t pixels, Test const& test) {
+  CountedPixels result{PixelSet(pixels), 0};
+  std::span<std::uint64_t> const words = result.pixels.words();
+  std::array<std::uint8_t, PixelSet::kWordBits> passes{};
+  for (std::size_t w = 0; w < words.size(); ++w) {
+    std::size_t const begin = w * PixelSet::kWordBits;
+    std::size_t const count = std::min(PixelSet::kWordBits, pixels - begin);
+    passes.fill(0);
+    // A loop of its own, so that it vectorises.
+    for (std::size_t i = 0; i < count; ++i) {
+      passes[i] = test(begin + i) ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < passes.size(); i += 8) {
+      static_assert(std::endian::native == std::endian::little);
+      std::uint64_t eight = 0;
+      std::memcpy(&eight, passes.data() + i, sizeof eight);
+      // The product's uppermost byte holds the lowest bit of each of the eight.
+      words[w] |= ((eight * 0x0102040810204080U) >> 56U) << i;
+    }
+    result.count += static_cast<std::size_t>(std::popcount(words[w]));
+  }
+  return result;
+}
 
 }  // namespace credo

@@ -1,17 +1,21 @@
 #include "stages/planes/planes.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "geometry/cell_sums.hpp"
 #include "geometry/segment_shares.hpp"
 #include "geometry/thinning.hpp"
+#include "stages/planes/pixel_boxes.hpp"
 #include "stages/planes/plane_pixels.hpp"
+#include "stages/planes/plane_sample.hpp"
+#include "stages/planes/segment_pieces.hpp"
 
 namespace credo {
 namespace {
@@ -26,6 +30,8 @@ struct View {
   Se3 const& T_world_camera;
   PlanesConfig const& config;
   PlaneTolerance tolerance;
+  PixelBoxes boxes;
+  SegmentPieces pieces;
   /// All pixels with depth.
   CountedPixels valid;
 };
@@ -45,26 +51,9 @@ PlaneTolerance tolerance_of(PlanesConfig const& config) {
                                              : 0.0F};
 }
 
-/// The pixels whose label passes.
-template <typename Test>
-CountedPixels pixels_where(LabelMap const& labels, Test const& test) {
-  CountedPixels result{PixelSet(labels.size()), 0};
-  std::span<std::uint64_t> const words = result.pixels.words();
-  for (std::size_t w = 0; w < words.size(); ++w) {
-    std::size_t const begin = w * PixelSet::kWordBits;
-    std::size_t const end = std::min(begin + PixelSet::kWordBits, labels.size());
-    std::uint64_t bits = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      bits |= std::uint64_t{test(labels[i])} << (i - begin);
-    }
-    words[w] = bits;
-    result.count += static_cast<std::size_t>(std::popcount(bits));
-  }
-  return result;
-}
-
 CountedPixels unassigned_pixels(LabelMap const& labels, Segments const& segments) {
-  CountedPixels pixels = pixels_where(labels, [](LabelCode label) { return label == kUnassigned; });
+  CountedPixels pixels = pixels_where(
+      labels.size(), [codes = labels.data()](std::size_t i) { return codes[i] == kUnassigned; });
   if (std::ranges::all_of(segments.lies_on, [](std::int32_t base) { return base == 0; })) {
     return pixels;
   }
@@ -81,54 +70,49 @@ CountedPixels unassigned_pixels(LabelMap const& labels, Segments const& segments
 }
 
 CountedPixels pixels_with_depth(LabelMap const& labels) {
-  return pixels_where(labels, [](LabelCode label) { return label != kNoDepth; });
+  return pixels_where(labels.size(),
+                      [codes = labels.data()](std::size_t i) { return codes[i] != kNoDepth; });
+}
+
+/// Those of the pixels that belong to a plane.
+CountedPixels inliers_among(View const& view, Plane const& plane_camera, PixelSet const& pixels,
+                            PlaneTolerance const& tolerance) {
+  return plane_inliers(plane_camera, view.cloud, view.normals,
+                       view.boxes.near(plane_camera, pixels, tolerance), tolerance);
 }
 
 /// What no plane has taken yet (thesis algorithm 2). Planes are found and fitted on a sample of it,
 /// then every pixel is asked.
 class RemainingPoints {
 public:
-  RemainingPoints(View const& view, Segments const& segments, CountedPixels pixels)
-      : view_(view), segments_(segments), pixels_(std::move(pixels)) {
-    if (!segments.labels.empty()) {
-      eligible_.assign(segments.pixel_counts.size() + 1, 0);
-      pixels_.pixels.for_each([&](std::size_t i) { ++eligible_[segment_of(i)]; });
-    }
-  }
+  RemainingPoints(View const& view, CountedPixels pixels)
+      : view_(view), pixels_(std::move(pixels)), eligible_(view.pieces.counts(pixels_.pixels)) {}
 
   /// Fits what a floor or wall has taken to the segments: all of those that it holds most of, as
   /// far as they keep near, and nothing of those that it holds little of.
   void settle(PixelPlane& plane) {
-    if (eligible_.empty()) {
+    if (view_.pieces.empty()) {
       return;
     }
-    std::vector<std::uint32_t> const held = held_by(plane);
-    auto const share = [&](std::size_t i) {
-      std::size_t const segment = segment_of(i);
+    std::vector<std::uint32_t> const held = view_.pieces.counts(plane.inliers.pixels);
+    auto const share = [&](std::size_t segment) {
       return segment == 0
                  ? 0.5
                  : static_cast<double>(held[segment]) / static_cast<double>(eligible_[segment]);
     };
-    CountedPixels back{PixelSet(view_.cloud.size()), 0};
-    plane.inliers.pixels.for_each([&](std::size_t i) {
-      if (share(i) <= kHardlyShare) {
-        back.insert(i);
-      }
-    });
-    CountedPixels near{PixelSet(view_.cloud.size()), 0};
-    pixels_.pixels.for_each([&](std::size_t i) {
-      if (share(i) >= kMostlyShare) {
-        near.insert(i);
-      }
-    });
+    CountedPixels const back = view_.pieces.where(
+        plane.inliers.pixels, [&](std::size_t segment) { return share(segment) <= kHardlyShare; });
+    CountedPixels near = view_.pieces.where(
+        pixels_.pixels, [&](std::size_t segment) { return share(segment) >= kMostlyShare; });
     PlaneTolerance const wide{kNear * view_.tolerance.fixed_m, kNear * view_.tolerance.noise_sigmas,
                               0.0F};
-    near = plane_inliers(plane.camera, view_.cloud, view_.normals, near.pixels, wide);
+    near = inliers_among(view_, plane.camera, near.pixels, wide);
     pixels_.remove(near);
     plane.inliers.remove(back);
-    near.pixels.for_each([&](std::size_t i) { plane.inliers.insert(i); });
-    back.pixels.for_each([&](std::size_t i) { pixels_.insert(i); });
-    plane.inliers.pixels.for_each([&](std::size_t i) { --eligible_[segment_of(i)]; });
+    plane.inliers.insert(near);
+    pixels_.insert(back);
+    std::vector<std::uint32_t> const taken = view_.pieces.counts(plane.inliers.pixels);
+    std::ranges::transform(eligible_, taken, eligible_.begin(), std::minus());
   }
 
   /// Takes the largest plane out; none once it has fewer pixels than a plane must have.
@@ -145,8 +129,7 @@ public:
     if (!found) {
       return std::nullopt;
     }
-    CountedPixels inliers =
-        plane_inliers(found->plane, view_.cloud, view_.normals, pixels_.pixels, view_.tolerance);
+    CountedPixels inliers = inliers_among(view_, found->plane, pixels_.pixels, view_.tolerance);
     if (inliers.count < least) {
       return std::nullopt;
     }
@@ -156,29 +139,13 @@ public:
   }
 
 private:
-  /// Of each segment, how many pixels a plane has.
-  [[nodiscard]] std::vector<std::uint32_t> held_by(PixelPlane const& plane) const {
-    std::vector<std::uint32_t> held(eligible_.size(), 0);
-    plane.inliers.pixels.for_each([&](std::size_t i) { ++held[segment_of(i)]; });
-    return held;
-  }
-
-  [[nodiscard]] std::size_t segment_of(std::size_t pixel) const {
-    return static_cast<std::size_t>(segments_.labels[pixel]);
-  }
-
   /// Planes thin the sample out: once half of it has gone, what remains is sampled anew.
   void refresh_sample() {
     auto const most = static_cast<std::size_t>(view_.config.sample_points);
     if (2 * sample_.size() >= std::min(most, pixels_.count)) {
       return;
     }
-    sample_ = {};
-    sample_.reserve(std::min(pixels_.count, most));
-    pixels_.pixels.for_every((pixels_.count + most - 1) / most, [&](std::size_t i) {
-      sample_.add(view_.cloud.at(i), view_.normals.at(i),
-                  view_.tolerance.distance_m(view_.cloud.z[i]), static_cast<std::uint32_t>(i));
-    });
+    sample_ = sample_of(pixels_, most, view_.cloud, view_.normals, view_.tolerance);
   }
 
   /// With the normal up.
@@ -189,10 +156,8 @@ private:
   }
 
   View const& view_;
-  Segments const& segments_;
   CountedPixels pixels_;
-  /// Of each segment, how many pixels neither floor nor wall nor object has taken. Empty without
-  /// segments.
+  /// Of each segment, how many pixels neither floor nor wall nor object has taken.
   std::vector<std::uint32_t> eligible_;
   PlaneSearchPoints sample_;
 };
@@ -288,15 +253,18 @@ bool is_wall(View const& view, PixelPlane const& plane) {
 /// Writes the label on the plane's pixels and returns their world points, thinned.
 PointList label_pixels(View const& view, PixelPlane const& plane, LabelCode code,
                        LabelMap& labels) {
-  Eigen::Matrix3f const rotation = view.T_world_camera.rotation().toRotationMatrix().cast<float>();
-  Eigen::Vector3f const translation = view.T_world_camera.translation().cast<float>();
-  PointList points;
-  points.reserve(plane.inliers.count);
-  plane.inliers.pixels.for_each([&](std::size_t i) {
-    labels[i] = code;
-    points.emplace_back(rotation * view.cloud.at(i) + translation);
+  CellSums cells(static_cast<float>(view.config.point_spacing_m), view.T_world_camera);
+  auto const run_of = [](Grid<float> const& grid, std::size_t begin, std::size_t end) {
+    return std::span<float const>(grid.data() + begin, end - begin);
+  };
+  plane.inliers.pixels.for_each_run([&](std::size_t begin, std::size_t end) {
+    std::fill(labels.data() + begin, labels.data() + end, code);
+    cells.add({run_of(view.cloud.x, begin, end), run_of(view.cloud.y, begin, end),
+               run_of(view.cloud.z, begin, end)});
   });
-  return thin_points(points, static_cast<float>(view.config.point_spacing_m));
+  PointList points;
+  cells.append_means(0, points);
+  return points;
 }
 
 void add_floor(View const& view, PixelPlane plane, Segmentation& segmentation) {
@@ -326,26 +294,16 @@ void add_wall(View const& view, PixelPlane const& plane, Segmentation& segmentat
 
 /// Of some pixels, those in segments that nothing has, or that these are most of; of all without
 /// segments.
-CountedPixels whole_segments(CountedPixels pixels, CountedPixels const& unassigned,
-                             Segments const& segments) {
-  if (segments.labels.empty()) {
+CountedPixels whole_segments(View const& view, CountedPixels pixels,
+                             CountedPixels const& unassigned) {
+  if (view.pieces.empty()) {
     return pixels;
   }
-  auto const segment_of = [&](std::size_t i) {
-    return static_cast<std::size_t>(segments.labels[i]);
-  };
-  std::vector<std::uint32_t> all(segments.pixel_counts.size() + 1, 0);
-  std::vector<std::uint32_t> some(all.size(), 0);
-  unassigned.pixels.for_each([&](std::size_t i) { ++all[segment_of(i)]; });
-  pixels.pixels.for_each([&](std::size_t i) { ++some[segment_of(i)]; });
-  CountedPixels others{PixelSet(segments.labels.size()), 0};
-  pixels.pixels.for_each([&](std::size_t i) {
-    std::size_t const segment = segment_of(i);
-    if (segment != 0 && some[segment] < kMostlyShare * all[segment]) {
-      others.insert(i);
-    }
-  });
-  pixels.remove(others);
+  std::vector<std::uint32_t> const all = view.pieces.counts(unassigned.pixels);
+  std::vector<std::uint32_t> const some = view.pieces.counts(pixels.pixels);
+  pixels.remove(view.pieces.where(pixels.pixels, [&](std::size_t segment) {
+    return segment != 0 && some[segment] < kMostlyShare * all[segment];
+  }));
   return pixels;
 }
 
@@ -360,9 +318,8 @@ void fill_holes(View const& view, std::vector<std::pair<LabelCode, Plane>> const
                              kAllBut * view.tolerance.noise_sigmas, 0.0F};
   CountedPixels unassigned = unassigned_pixels(segmentation.labels, segmentation.segments);
   for (auto const& [label, plane_camera] : found) {
-    CountedPixels joining =
-        plane_inliers(plane_camera, view.cloud, view.normals, unassigned.pixels, close);
-    joining = whole_segments(std::move(joining), unassigned, segmentation.segments);
+    CountedPixels joining = inliers_among(view, plane_camera, unassigned.pixels, close);
+    joining = whole_segments(view, std::move(joining), unassigned);
     if (label == kFloor) {
       joining = low_pixels(view, std::move(joining));
     }
@@ -375,11 +332,15 @@ void fill_holes(View const& view, std::vector<std::pair<LabelCode, Plane>> const
 
 Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
                             PlanesConfig const& config) {
-  View const view{frame.cloud_camera,          normals,
-                  segmentation.T_world_camera, config,
-                  tolerance_of(config),        pixels_with_depth(segmentation.labels)};
-  RemainingPoints remaining(view, segmentation.segments,
-                            unassigned_pixels(segmentation.labels, segmentation.segments));
+  View const view{frame.cloud_camera,
+                  normals,
+                  segmentation.T_world_camera,
+                  config,
+                  tolerance_of(config),
+                  PixelBoxes(frame.cloud_camera),
+                  SegmentPieces(segmentation.segments),
+                  pixels_with_depth(segmentation.labels)};
+  RemainingPoints remaining(view, unassigned_pixels(segmentation.labels, segmentation.segments));
   std::vector<std::pair<LabelCode, Plane>> found;
   for (int k = 0; k < config.max_planes; ++k) {
     std::optional<PixelPlane> plane = remaining.take_largest(

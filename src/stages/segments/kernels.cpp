@@ -64,69 +64,112 @@ HWY_INLINE V16 quotient(V16 sum, V16 count) {
   return hn::Load(d, lanes.sum.data());
 }
 
+/// Where every centre is higher than the limit, or invalid, what is invalid is too far from
+/// it to count: it need not be asked for.
+HWY_INLINE bool invalid_is_far(V16 c, V16 limit) {
+  D16 const d;
+  return hn::AllTrue(d, hn::Or(c > limit, c == hn::Zero(d)));
+}
+
+/// Of the differences from c that count, their sum, and how many they are.
+struct WindowSums {
+  V16 sum;
+  V16 count;
+};
+template <bool kInvalidIsFar>
+HWY_INLINE WindowSums window_sums(std::int16_t const* centre, std::ptrdiff_t stride, int radius,
+                                  V16 c, V16 limit) {
+  D16 const d;
+  V16 const zero = hn::Zero(d);
+  V16 sum = zero;
+  V16 minus_count = zero;
+  for (int dv = -radius; dv <= radius; ++dv) {
+    std::int16_t const* const row = centre + dv * stride;
+    for (int du = -radius; du <= radius; ++du) {
+      V16 const other = load(row + du);
+      V16 const difference = other - c;
+      M16 member = hn::Abs(difference) < limit;
+      if constexpr (!kInvalidIsFar) {
+        member = hn::And(member, other > zero);
+      }
+      sum = sum + hn::IfThenElseZero(member, difference);
+      minus_count = minus_count + hn::VecFromMask(d, member);
+    }
+  }
+  return {sum, zero - minus_count};
+}
+
 void smooth_row_lanes(std::int16_t const* centre, std::ptrdiff_t stride, int radius,
                       std::int16_t limit, std::size_t count, std::int16_t* out) {
   D16 const d;
-  V16 const zero = hn::Zero(d);
   V16 const most = constant(limit);
   for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
     V16 const c = load(centre + u);
-    V16 sum = zero;
-    V16 minus_count = zero;
-    for (int dv = -radius; dv <= radius; ++dv) {
-      std::int16_t const* const row = centre + dv * stride + u;
-      for (int du = -radius; du <= radius; ++du) {
-        V16 const other = load(row + du);
-        V16 const difference = other - c;
-        M16 const member = hn::And(hn::Abs(difference) < most, other > zero);
-        sum = sum + hn::IfThenElseZero(member, difference);
-        minus_count = minus_count + hn::VecFromMask(d, member);
-      }
-    }
+    WindowSums const sums = invalid_is_far(c, most)
+                                ? window_sums<true>(centre + u, stride, radius, c, most)
+                                : window_sums<false>(centre + u, stride, radius, c, most);
     // Where the centre is invalid the count may be 0, and the result is not used.
-    V16 const size = hn::Max(zero - minus_count, constant(1));
-    hn::StoreU(hn::IfThenElseZero(c > zero, c + quotient(sum, size)), d, out + u);
+    V16 const size = hn::Max(sums.count, constant(1));
+    hn::StoreU(hn::IfThenElseZero(c > hn::Zero(d), c + quotient(sums.sum, size)), d, out + u);
   }
 }
 
-/// Of one pair: a + b - 2c, and |a - b|; 0 where it does not count.
+/// Of one pair: a + b - 2c, and |a - b|; 0 where it does not count. The centre's own validity is
+/// left out.
 struct PairHeights {
   V16 concavity;
   V16 steepness;
 };
-HWY_INLINE PairHeights heights_of(V16 c, V16 a, V16 b, V16 most) {
+template <bool kInvalidIsFar>
+HWY_INLINE PairHeights heights_of(V16 c, V16 a, V16 b, V16 limit) {
   V16 const zero = hn::Zero(D16());
   V16 const to_a = a - c;
   V16 const to_b = b - c;
-  M16 const near = hn::And(hn::Abs(to_a) < most, hn::Abs(to_b) < most);
-  M16 const valid = hn::And(hn::And(a > zero, b > zero), c > zero);
-  M16 const one_surface = hn::And(near, valid);
+  M16 one_surface = hn::Max(hn::Abs(to_a), hn::Abs(to_b)) < limit;
+  if constexpr (!kInvalidIsFar) {
+    one_surface = hn::And(one_surface, hn::Min(a, b) > zero);
+  }
   return {hn::IfThenElseZero(one_surface, to_a + to_b),
           hn::IfThenElseZero(one_surface, hn::Abs(to_a - to_b))};
+}
+
+/// The largest of all pairs; `far` is of those at twice the offsets.
+struct Bend {
+  V16 near;
+  V16 far;
+  V16 steepness;
+};
+template <bool kInvalidIsFar>
+HWY_INLINE Bend bend_of(std::int16_t const* at, V16 c, ConcavityPairs const& pairs) {
+  V16 const limit = constant(pairs.limit);
+  V16 const zero = hn::Zero(D16());
+  Bend bend{zero, zero, zero};
+  for (std::ptrdiff_t const offset : pairs.offsets) {
+    auto const heights = [&](std::ptrdiff_t reach) HWY_ATTR {
+      return heights_of<kInvalidIsFar>(c, load(at + reach), load(at - reach), limit);
+    };
+    PairHeights const near = heights(offset);
+    bend.near = hn::Max(bend.near, near.concavity);
+    bend.steepness = hn::Max(bend.steepness, near.steepness);
+    bend.far = hn::Max(bend.far, heights(2 * offset).concavity);
+  }
+  return bend;
 }
 
 void concavity_row_lanes(std::int16_t const* centre, ConcavityPairs const& pairs, std::size_t count,
                          std::int16_t* concavity, std::int16_t* steepness) {
   D16 const d;
-  V16 const zero = hn::Zero(d);
-  V16 const most = constant(pairs.limit);
   V16 const weight = constant(pairs.far_weight);
   for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
-    std::int16_t const* const at = centre + u;
-    V16 const c = load(at);
-    V16 largest = zero;
-    V16 farther = zero;
-    V16 steepest = zero;
-    for (std::ptrdiff_t const offset : pairs.offsets) {
-      PairHeights const near = heights_of(c, load(at + offset), load(at - offset), most);
-      largest = hn::Max(largest, near.concavity);
-      steepest = hn::Max(steepest, near.steepness);
-      PairHeights const far = heights_of(c, load(at + 2 * offset), load(at - 2 * offset), most);
-      farther = hn::Max(farther, far.concavity);
-    }
+    V16 const c = load(centre + u);
+    Bend const bend = invalid_is_far(c, constant(pairs.limit))
+                          ? bend_of<true>(centre + u, c, pairs)
+                          : bend_of<false>(centre + u, c, pairs);
+    M16 const valid = c > hn::Zero(d);
     // Twice the height, so that the upper half of the product is over 2^15.
-    hn::StoreU(hn::Max(largest, hn::MulHigh(farther + farther, weight)), d, concavity + u);
-    hn::StoreU(steepest, d, steepness + u);
+    V16 const most = hn::Max(bend.near, hn::MulHigh(bend.far + bend.far, weight));
+    hn::StoreU(hn::IfThenElseZero(valid, most), d, concavity + u);
+    hn::StoreU(hn::IfThenElseZero(valid, bend.steepness), d, steepness + u);
   }
 }
 
@@ -188,19 +231,69 @@ void worth_row_lanes(std::int16_t const* disparity, std::uint8_t const* thicknes
   }
 }
 
-void front_row_lanes(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
-                     std::size_t count, std::uint8_t* out) {
-  D8 const d;
-  // a >= b where max(a, b) == a.
-  auto const bound = hn::Set(d, least);
-  for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
-    std::uint8_t const* const at = centre + u;
-    auto const beside = hn::Max(hn::LoadU(d, at - 1), hn::LoadU(d, at + 1));
-    auto const most =
-        hn::Max(beside, hn::Max(hn::LoadU(d, at - stride), hn::LoadU(d, at + stride)));
-    auto const is_front = hn::And(hn::Max(most, bound) == most, hn::LoadU(d, at) == hn::Zero(d));
-    hn::StoreU(hn::IfThenElseZero(is_front, most), d, out + u);
+template <class D>
+HWY_INLINE std::uint64_t bits_of(D d, hn::Mask<D> mask) {
+  alignas(8) std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < 8; ++i) {
+    bits |= std::uint64_t{bytes[i]} << (8 * i);
   }
+  // Fewer lanes than bits in a byte leave the rest open.
+  return hn::Lanes(d) < 8 ? bits & ((std::uint64_t{1} << hn::Lanes(d)) - 1) : bits;
+}
+
+/// What `mask_at` tells of the pixels of a row, 64 a word.
+template <class D, class MaskAt>
+HWY_INLINE void store_bits(D d, std::size_t count, MaskAt const& mask_at, std::uint64_t* out) {
+  constexpr std::size_t kWord = 64;
+  for (std::size_t begin = 0; begin < count; begin += kWord) {
+    std::uint64_t bits = 0;
+    for (std::size_t u = 0; u < kWord; u += hn::Lanes(d)) {
+      bits |= bits_of(d, mask_at(begin + u)) << u;
+    }
+    std::size_t const left = count - begin;
+    out[begin / kWord] = left < kWord ? bits & ((std::uint64_t{1} << left) - 1) : bits;
+  }
+}
+
+void different_bits_lanes(std::int32_t const* a, std::int32_t const* b, std::size_t count,
+                          std::uint64_t* out) {
+  DI const d;
+  store_bits(
+      d, count,
+      [&](std::size_t u) HWY_ATTR { return hn::Ne(hn::LoadU(d, a + u), hn::LoadU(d, b + u)); },
+      out);
+}
+
+void at_least_bits_lanes(std::uint8_t const* row, std::uint8_t least, std::size_t count,
+                         std::uint64_t* out) {
+  D8 const d;
+  auto const bound = hn::Set(d, least);
+  // a >= b where max(a, b) == a.
+  store_bits(
+      d, count,
+      [&](std::size_t u) HWY_ATTR {
+        auto const value = hn::LoadU(d, row + u);
+        return hn::Max(value, bound) == value;
+      },
+      out);
+}
+
+void front_bits_lanes(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
+                      std::size_t count, std::uint64_t* out) {
+  D8 const d;
+  auto const bound = hn::Set(d, least);
+  store_bits(
+      d, count,
+      [&](std::size_t u) HWY_ATTR {
+        std::uint8_t const* const at = centre + u;
+        auto const beside = hn::Max(hn::LoadU(d, at - 1), hn::LoadU(d, at + 1));
+        auto const most =
+            hn::Max(beside, hn::Max(hn::LoadU(d, at - stride), hn::LoadU(d, at + stride)));
+        return hn::And(hn::Max(most, bound) == most, hn::LoadU(d, at) == hn::Zero(d));
+      },
+      out);
 }
 
 }  // namespace credo::segments::HWY_NAMESPACE
@@ -215,7 +308,9 @@ HWY_EXPORT(concavity_row_lanes);
 HWY_EXPORT(crease_row_lanes);
 HWY_EXPORT(thicken_row_lanes);
 HWY_EXPORT(worth_row_lanes);
-HWY_EXPORT(front_row_lanes);
+HWY_EXPORT(different_bits_lanes);
+HWY_EXPORT(at_least_bits_lanes);
+HWY_EXPORT(front_bits_lanes);
 
 void disparity_row(float const* depth_m, std::size_t count, float units_m, std::int16_t* out) {
   HWY_DYNAMIC_DISPATCH(disparity_row_lanes)(depth_m, count, units_m, out);
@@ -248,9 +343,19 @@ void worth_row(std::int16_t const* disparity, std::uint8_t const* thickness, std
   HWY_DYNAMIC_DISPATCH(worth_row_lanes)(disparity, thickness, count, out);
 }
 
-void front_row(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
-               std::size_t count, std::uint8_t* out) {
-  HWY_DYNAMIC_DISPATCH(front_row_lanes)(centre, stride, least, count, out);
+void different_bits(std::int32_t const* a, std::int32_t const* b, std::size_t count,
+                    std::uint64_t* out) {
+  HWY_DYNAMIC_DISPATCH(different_bits_lanes)(a, b, count, out);
+}
+
+void at_least_bits(std::uint8_t const* row, std::uint8_t least, std::size_t count,
+                   std::uint64_t* out) {
+  HWY_DYNAMIC_DISPATCH(at_least_bits_lanes)(row, least, count, out);
+}
+
+void front_bits(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
+                std::size_t count, std::uint64_t* out) {
+  HWY_DYNAMIC_DISPATCH(front_bits_lanes)(centre, stride, least, count, out);
 }
 
 }  // namespace credo::segments

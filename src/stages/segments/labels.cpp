@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstring>
 #include <utility>
 #include <vector>
 
 #include "stages/segments/kernels.hpp"
+#include "stages/segments/row_bits.hpp"
 
 namespace credo::segments {
 namespace {
@@ -35,9 +35,9 @@ public:
   Growth(SurfaceMap const& map, Limits const& limits)
       : map_(map),
         limits_(limits),
-        labels_(map.width(), map.height()),
-        worth_(map.width(), map.height()),
-        candidates_(static_cast<std::size_t>(map.width()) + PartLabels::kMargin),
+        labels_(map.width(), map.height(), PartLabels::kFewMarginRows),
+        worth_(map.width(), map.height(), PartLabels::kFewMarginRows),
+        bits_(map.width()),
         neighbours_({-1, 1, static_cast<Position>(-labels_.stride()),
                      static_cast<Position>(labels_.stride())}) {
     for (int v = 0; v < map.height(); ++v) {
@@ -73,17 +73,12 @@ private:
 
   /// The runs of a row, joined with those of the row before, which begin at `above`.
   void add_runs(int v, std::uint8_t least, std::size_t above) {
-    std::uint8_t const* const worth = worth_.row(v);
     int const width = map_.width();
+    at_least_bits(worth_.row(v), least, static_cast<std::size_t>(width), bits_.data());
     std::size_t const row_begin = runs_.size();
-    for (int u = 0; u < width; ++u) {
-      if (worth[u] < least) {
-        continue;
-      }
+    for (int u = bits_.next_set(0); u < width; u = bits_.next_set(u)) {
       Run run{v, u, u, static_cast<std::int32_t>(runs_.size())};
-      while (u < width && worth[u] >= least) {
-        ++u;
-      }
+      u = bits_.next_clear(u);
       run.end = u;
       runs_.push_back(run);
       for (; above < row_begin && runs_[above].begin < run.end; ++above) {
@@ -105,9 +100,7 @@ private:
     std::size_t above = 0;
     for (int v = 0; v < map_.height(); ++v) {
       std::size_t const begin = runs_.size();
-      if (has_any(v, least)) {
-        add_runs(v, least, above);
-      }
+      add_runs(v, least, above);
       above = begin;
     }
     std::vector<std::uint32_t> size_px(runs_.size(), 0);
@@ -130,30 +123,17 @@ private:
     }
   }
 
-  [[nodiscard]] bool has_any(int v, std::uint8_t least) const {
-    std::uint8_t const* const row = worth_.row(v);
-    std::uint8_t most = 0;
-    for (int u = 0; u < map_.width(); ++u) {
-      most = std::max(most, row[u]);
-    }
-    return most >= least;
-  }
-
   /// Labelled pixels beside others of that worth without a label, in raster order.
   template <typename Visit>
   void for_each_front(std::uint8_t least, Visit const& visit) {
     Position const stride = neighbours_[3];
     for (int v = 0; v < map_.height(); ++v) {
       std::int32_t const* const labels = labels_.row(v);
-      front_row(worth_.row(v), stride, least, static_cast<std::size_t>(map_.width()),
-                candidates_.data());
-      for (int u = 0; u < map_.width(); u += 8) {
-        std::uint64_t eight = 0;
-        std::memcpy(&eight, candidates_.data() + u, sizeof eight);
-        for (int i = u; eight != 0 && i < std::min(u + 8, map_.width()); ++i) {
-          if (candidates_[static_cast<std::size_t>(i)] != 0 && labels[i] != 0) {
-            visit(v * stride + i);
-          }
+      front_bits(worth_.row(v), stride, least, static_cast<std::size_t>(map_.width()),
+                 bits_.data());
+      for (int u = bits_.next_set(0); u < map_.width(); u = bits_.next_set(u + 1)) {
+        if (labels[u] != 0) {
+          visit(v * stride + u);
         }
       }
     }
@@ -207,7 +187,7 @@ private:
   Limits const& limits_;
   PartLabels labels_;
   PaddedGrid<std::uint8_t> worth_;
-  std::vector<std::uint8_t> candidates_;
+  RowBits bits_;
   /// In the order in which fronts advance.
   std::array<Position, 4> neighbours_;
   std::int32_t next_ = 1;

@@ -14,38 +14,43 @@ public:
   /// Columns to each side: as far as a window reaches, and what a vector reads or writes beyond the
   /// last pixel.
   static constexpr int kMargin = 96;
-  /// Rows above and below: as far as a window reaches.
+  /// Rows above and below: as far as the widest window reaches, and as far as others do.
   static constexpr int kMarginRows = 64;
+  static constexpr int kFewMarginRows = 8;
 
-  PaddedGrid(int width, int height)
+  PaddedGrid(int width, int height, int margin_rows = kMarginRows)
       : width_(width),
         height_(height),
+        margin_rows_(margin_rows),
         stride_(width + 2 * kMargin),
         data_(new T[static_cast<std::size_t>(stride_) *
-                    static_cast<std::size_t>(height + 2 * kMarginRows)]) {
-    std::fill(row(-kMarginRows) - kMargin, row(0) - kMargin, T{});
+                    static_cast<std::size_t>(height + 2 * margin_rows)]) {
+    // The margins behind a row and before the next are side by side.
+    std::fill(row(-margin_rows) - kMargin, row(0), T{});
     for (int v = 0; v < height; ++v) {
-      std::fill(row(v) - kMargin, row(v), T{});
-      end_row(v);
+      std::fill(row(v) + width_, row(v) + stride_, T{});
     }
-    std::fill(row(height) - kMargin, row(height + kMarginRows) - kMargin, T{});
+    std::fill(row(height), row(height + margin_rows) - kMargin, T{});
   }
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   /// From one row to the next.
   [[nodiscard]] std::ptrdiff_t stride() const { return stride_; }
-  /// Column 0 of a row, from -kMarginRows on.
+  /// Column 0 of a row, from as far above the image as the margin has rows.
   [[nodiscard]] T* row(int v) { return data_.get() + origin(v); }
   [[nodiscard]] T const* row(int v) const { return data_.get() + origin(v); }
   /// Clears what a vector wrote beyond the row's last pixel.
-  void end_row(int v) { std::fill(row(v) + width_, row(v) + width_ + kMargin, T{}); }
+  void end_row(int v) { std::fill(row(v) + width_, row(v) + stride_ - kMargin, T{}); }
 
 private:
-  [[nodiscard]] std::ptrdiff_t origin(int v) const { return (v + kMarginRows) * stride_ + kMargin; }
+  [[nodiscard]] std::ptrdiff_t origin(int v) const {
+    return (v + margin_rows_) * stride_ + kMargin;
+  }
 
   int width_;
   int height_;
+  int margin_rows_;
   std::ptrdiff_t stride_;
   // Not a vector: that would write every value twice.
   std::unique_ptr<T[]> data_;

@@ -5,6 +5,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "stages/segments/kernels.hpp"
+#include "stages/segments/row_bits.hpp"
+
 namespace credo::segments {
 namespace {
 
@@ -92,7 +95,7 @@ bool go_on(DiscPlane const& a, DiscPlane const& b) {
 class Builder {
 public:
   Builder(SurfaceMap const& map, PartLabels const& labels, Limits const& limits)
-      : map_(map), labels_(labels), limits_(limits) {
+      : map_(map), labels_(labels), limits_(limits), beside_(map.width()), below_(map.width()) {
     int const radius = limits.disc_px;
     for (int v = -radius; v <= radius; v += 2) {
       int u = -radius;
@@ -107,14 +110,7 @@ public:
 
   RegionGraph graph() && {
     for (int v = 0; v < map_.height(); ++v) {
-      std::int32_t const* const row = labels_.row(v);
-      // Behind the last row and column there is no label, and so no border.
-      for (int u = 0; u < map_.width();) {
-        int const begin = u;
-        u = first_change(row, u);
-        count(row[begin], static_cast<std::uint32_t>(u - begin));
-        look_along(row, v, begin, u);
-      }
+      look_along(v);
     }
     std::ranges::sort(graph_.borders, {},
                       [](Border const& border) { return std::pair(border.low, border.high); });
@@ -122,26 +118,31 @@ public:
   }
 
 private:
-  /// The end of the run of one label that begins at u.
-  [[nodiscard]] int first_change(std::int32_t const* row, int u) const {
-    int end = u + 1;
-    while (end < map_.width() && row[end] == row[u]) {
-      ++end;
-    }
-    return end;
-  }
-
-  /// The borders of a run to what is below, and of its last pixel to what is beside.
-  void look_along(std::int32_t const* row, int v, int begin, int end) {
-    std::int32_t const* const below = row + labels_.stride();
-    for (int u = begin; u < end; ++u) {
-      if (u + 1 == end && row[u + 1] != row[u]) {
+  /// The borders of a row's pixels to what is beside them and below. Behind the last row and column
+  /// there is no label, and so no border.
+  void look_along(int v) {
+    std::int32_t const* const row = labels_.row(v);
+    int const width = map_.width();
+    different_bits(row, row + 1, static_cast<std::size_t>(width), beside_.data());
+    different_bits(row, row + labels_.stride(), static_cast<std::size_t>(width), below_.data());
+    int begin = 0;
+    for (int u = next_border(0); u < width; u = next_border(u + 1)) {
+      if (beside_.contains(u)) {
+        count(row[begin], static_cast<std::uint32_t>(u + 1 - begin));
+        begin = u + 1;
         look(u, v, 1);
       }
-      if (below[u] != row[u]) {
+      if (below_.contains(u)) {
         look(u, v, labels_.stride());
       }
     }
+    if (begin < width) {
+      count(row[begin], static_cast<std::uint32_t>(width - begin));
+    }
+  }
+
+  [[nodiscard]] int next_border(int u) const {
+    return std::min(beside_.next_set(u), below_.next_set(u));
   }
 
   void count(std::int32_t label, std::uint32_t pixels) {
@@ -228,6 +229,9 @@ private:
   Limits const& limits_;
   /// Of each row of a disc its first pixel.
   std::vector<Pixel> disc_;
+  /// Where in a row the next pixel, or the one below, has another label.
+  RowBits beside_;
+  RowBits below_;
   RegionGraph graph_;
   std::unordered_map<std::uint64_t, std::size_t> index_;
   std::uint64_t last_key_ = 0;

@@ -1,8 +1,11 @@
 #include "stages/segments/segments.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 #include <utility>
 
+#include "core/runs.hpp"
 #include "stages/segments/labels.hpp"
 #include "stages/segments/limits.hpp"
 #include "stages/segments/region_graph.hpp"
@@ -18,12 +21,11 @@ Segments numbered(segments::PartLabels const& labels, std::vector<std::int32_t> 
   result.labels = Grid<std::int32_t>(labels.width(), labels.height());
   std::vector<std::int32_t> number_of(root.size(), 0);
   for (int v = 0; v < labels.height(); ++v) {
-    std::int32_t const* const row = labels.row(v);
-    for (int u = 0; u < labels.width();) {
-      int const begin = u;
-      while (u < labels.width() && row[u] == row[begin]) {
-        ++u;
-      }
+    std::span<std::int32_t const> const row(labels.row(v),
+                                            static_cast<std::size_t>(labels.width()));
+    std::size_t end = 0;
+    for (std::size_t begin = 0; begin < row.size(); begin = end) {
+      end = run_end(row, begin);
       if (row[begin] == 0) {
         continue;
       }
@@ -34,8 +36,8 @@ Segments numbered(segments::PartLabels const& labels, std::vector<std::int32_t> 
         number = static_cast<std::int32_t>(result.pixel_counts.size());
       }
       result.pixel_counts[static_cast<std::size_t>(number - 1)] +=
-          static_cast<std::uint32_t>(u - begin);
-      std::fill_n(result.labels.row(v).begin() + begin, u - begin, number);
+          static_cast<std::uint32_t>(end - begin);
+      std::ranges::fill(result.labels.row(v).subspan(begin, end - begin), number);
     }
   }
   return result;

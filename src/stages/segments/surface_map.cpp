@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,7 @@ Heights disparity_of(Grid<float> const& depth_m, Limits const& limits) {
   int const width = depth_m.width();
   int const height = depth_m.height();
   auto const count = static_cast<std::size_t>(width);
-  Heights disparity(width, height);
+  Heights disparity(width, height, Heights::kFewMarginRows);
   // Behind the last row nothing may be read.
   std::vector<float> last(count + Heights::kMargin, 0.0F);
   for (int v = 0; v < height; ++v) {
@@ -46,30 +47,33 @@ Heights smoothed(Heights const& disparity, Limits const& limits) {
 
 /// The frame's own noise: what three quarters of the pixels on a coarse grid are less concave than.
 int noise_of(Heights const& disparity, Heights const& concavity) {
-  std::vector<std::int16_t> sample;
+  // Counted by value: there are few values, and none below 0.
+  std::vector<std::uint32_t> counts(std::numeric_limits<std::int16_t>::max() + std::size_t{1}, 0);
+  std::uint32_t total = 0;
   for (int v = 0; v < disparity.height(); v += 3) {
     for (int u = 0; u < disparity.width(); u += 5) {
       if (disparity.row(v)[u] > 0) {
-        sample.push_back(concavity.row(v)[u]);
+        ++counts[static_cast<std::size_t>(concavity.row(v)[u])];
+        ++total;
       }
     }
   }
-  if (sample.empty()) {
-    return 0;
+  std::uint32_t less = 0;
+  for (std::size_t value = 0; value < counts.size(); ++value) {
+    less += counts[value];
+    if (less > total * std::uint64_t{3} / 4) {
+      return static_cast<int>(value);
+    }
   }
-  auto const middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() * 3 / 4);
-  std::nth_element(sample.begin(), middle, sample.end());
-  return *middle;
+  return 0;
 }
 
-void thicken(Bytes& thickness, std::uint8_t level) {
-  Bytes thicker(thickness.width(), thickness.height());
+void thicken(Bytes const& thickness, std::uint8_t level, Bytes& thicker) {
   for (int v = 0; v < thickness.height(); ++v) {
     thicken_row(thickness.row(v), thickness.stride(), level,
                 static_cast<std::size_t>(thickness.width()), thicker.row(v));
     thicker.end_row(v);
   }
-  std::swap(thickness, thicker);
 }
 
 }  // namespace
@@ -78,10 +82,11 @@ SurfaceMap map_surfaces(Grid<float> const& depth_m, Limits const& limits) {
   int const width = depth_m.width();
   int const height = depth_m.height();
   auto const count = static_cast<std::size_t>(width);
-  SurfaceMap map{disparity_of(depth_m, limits), Heights(width, height), Bytes(width, height),
-                 Bytes(width, height)};
+  constexpr int kRows = Heights::kFewMarginRows;
+  SurfaceMap map{disparity_of(depth_m, limits), Heights(width, height, kRows),
+                 Bytes(width, height, kRows), Bytes(width, height, kRows)};
   Heights const smooth = smoothed(map.disparity, limits);
-  Heights steepness(width, height);
+  Heights steepness(width, height, kRows);
   std::ptrdiff_t const reach = limits.reach_px;
   std::ptrdiff_t const diagonal = limits.diagonal_px;
   ConcavityPairs const pairs{{reach, reach * smooth.stride(), diagonal * (smooth.stride() + 1),
@@ -103,8 +108,10 @@ SurfaceMap map_surfaces(Grid<float> const& depth_m, Limits const& limits) {
     map.wall.end_row(v);
     map.thickness.end_row(v);
   }
+  Bytes thicker(width, height, kRows);
   for (std::uint8_t level = 1; level <= 3; ++level) {
-    thicken(map.thickness, level);
+    thicken(map.thickness, level, thicker);
+    std::swap(map.thickness, thicker);
   }
   return map;
 }

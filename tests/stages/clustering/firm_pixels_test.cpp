@@ -3,6 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <utility>
+#include <vector>
+
 #include "stages/clustering/clustering.hpp"
 
 namespace credo::test {
@@ -12,6 +20,62 @@ using ::testing::Each;
 using ::testing::SizeIs;
 
 constexpr LabelCode kThing = kFirstStuff;
+
+/// Word for word: one piece after the other is filled, pixel by pixel.
+Grid<std::uint8_t> literal_firm_pixels(Grid<float> const& depth_m, LabelMap const& labels) {
+  constexpr std::array<Pixel, 4> kSteps = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  Grid<std::uint8_t> taken(labels.width(), labels.height());
+  std::vector<std::vector<Pixel>> pieces;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (!is_stuff(labels[i]) || std::exchange(taken[i], 1) != 0) {
+      continue;
+    }
+    std::vector<Pixel> piece = {labels.pixel(i)};
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+      for (Pixel const step : kSteps) {
+        Pixel const p = piece[k];
+        Pixel const q{p.u + step.u, p.v + step.v};
+        if (labels.contains(q) && taken[q] == 0 && labels[q] == labels[p] &&
+            std::abs(depth_m[p] - depth_m[q]) < kFirm_per_m * (depth_m[p] * depth_m[q])) {
+          taken[q] = 1;
+          piece.push_back(q);
+        }
+      }
+    }
+    pieces.push_back(piece);
+  }
+  Grid<std::uint8_t> firm(labels.width(), labels.height());
+  for (auto const& piece : pieces) {
+    bool const is_firm = std::ranges::all_of(pieces, [&](auto const& other) {
+      return labels[other[0]] != labels[piece[0]] || 10 * piece.size() >= other.size();
+    });
+    for (Pixel const p : piece) {
+      firm[p] = is_firm ? 1 : 0;
+    }
+  }
+  return firm;
+}
+
+TEST(FirmPixels, AreThoseOfTheLiteralAlgorithm) {
+  std::mt19937 random(1);
+  std::array<LabelCode, 6> const codes = {kThing, kThing,      kThing + 1,
+                                          kFloor, kUnassigned, kNoDepth};
+  for (int k = 0; k < 200; ++k) {
+    int const width = static_cast<int>(random() % 40);
+    LabelMap labels(width, static_cast<int>(random() % 30));
+    Grid<float> depth_m(labels.width(), labels.height());
+    // From large pieces with a few holes to crumbs.
+    unsigned const noise = 1 + random() % 8;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      labels[i] = random() % 8 < noise ? codes.at(random() % codes.size())
+                                       : codes.at(random() % 10 == 0 ? 2 : 0);
+      depth_m[i] = labels[i] == kNoDepth   ? (k % 2 == 0 ? 0.0F : kNaN)
+                   : random() % 16 < noise ? 1.0F + 0.01F * static_cast<float>(random() % 16)
+                                           : 1.1F;
+    }
+    EXPECT_TRUE(firm_pixels(depth_m, labels) == literal_firm_pixels(depth_m, labels)) << k;
+  }
+}
 
 TEST(FirmPixels, AreThoseThatHoldTogether) {
   Grid<float> depth_m(8, 6, 1.0F);

@@ -50,6 +50,42 @@ TEST(PixelSet, VisitsEveryNthBeginningWithTheFirst) {
   }
 }
 
+TEST(PixelSet, VisitsRunsThatEndWithTheirWord) {
+  for (std::size_t const size : {0U, 1U, 64U, 130U, 700U}) {
+    PixelSet const set = some_pixels(size);
+    std::vector<std::size_t> visited;
+    set.for_each_run([&](std::size_t begin, std::size_t end) {
+      EXPECT_LT(begin, end);
+      EXPECT_EQ(begin / PixelSet::kWordBits, (end - 1) / PixelSet::kWordBits);
+      EXPECT_TRUE(end % PixelSet::kWordBits == 0 || !set.contains(end));
+      for (std::size_t i = begin; i < end; ++i) {
+        visited.push_back(i);
+      }
+    });
+    EXPECT_EQ(visited, every(set, 1));
+  }
+}
+
+TEST(PixelSet, OfPixelsThatPass) {
+  for (std::size_t const size : {0U, 1U, 63U, 64U, 65U, 700U}) {
+    PixelSet const expected = some_pixels(size);
+    CountedPixels const passing =
+        pixels_where(size, [&](std::size_t i) { return expected.contains(i); });
+    EXPECT_EQ(passing.count, every(expected, 1).size());
+    EXPECT_EQ(every(passing.pixels, 1), every(expected, 1));
+  }
+}
+
+TEST(PixelSet, CountsWhatComesInManyAtOnce) {
+  CountedPixels pixels = pixels_where(200, [](std::size_t i) { return i % 2 == 0; });
+  pixels.insert(1, std::uint64_t{2});
+  EXPECT_TRUE(pixels.pixels.contains(65));
+  EXPECT_EQ(pixels.count, 101U);
+  pixels.insert(pixels_where(200, [](std::size_t i) { return i == 67 || i == 69; }));
+  EXPECT_TRUE(pixels.pixels.contains(69));
+  EXPECT_EQ(pixels.count, 103U);
+}
+
 TEST(PixelSet, TakesOutWhatItIsTold) {
   PixelSet set = some_pixels(200);
   PixelSet gone(200);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "stages/segments/padded_grid.hpp"
+#include "stages/segments/row_bits.hpp"
 
 namespace credo::segments {
 namespace {
@@ -282,17 +283,28 @@ TEST(SegmentKernels, Worth) {
   });
 }
 
+/// What a kernel writes as bits, one value a pixel; bits beyond the row are 0.
+template <typename Write>
+std::vector<std::uint8_t> written_bits(int width, Write const& write) {
+  RowBits bits(width);
+  write(bits.data());
+  std::vector<std::uint8_t> values;
+  for (int u = 0; u < width; ++u) {
+    values.push_back(bits.contains(u) ? 1 : 0);
+  }
+  EXPECT_EQ(width % 64 == 0 ? 0U : bits.data()[width / 64] >> (width % 64), 0U);
+  return values;
+}
+
 TEST(SegmentKernels, Front) {
   on_every_instruction_set([](int width) {
     std::mt19937 random(static_cast<unsigned>(width));
     Bytes const bytes =
         drawn<std::uint8_t>(width, [&] { return random() % 3 == 0 ? random() % 6 : 0U; });
     for (std::uint8_t least = 1; least <= 5; ++least) {
-      Row<std::uint8_t> out(width);
-      front_row(bytes.row(2), bytes.stride(), least, static_cast<std::size_t>(width), out.data());
-      std::vector<std::uint8_t> is_front = out.values();
-      std::ranges::replace_if(
-          is_front, [](std::uint8_t value) { return value != 0; }, 1);
+      auto const is_front = written_bits(width, [&](std::uint64_t* out) {
+        front_bits(bytes.row(2), bytes.stride(), least, static_cast<std::size_t>(width), out);
+      });
       EXPECT_EQ(is_front, plain_row<std::uint8_t>(width, [&](int u) {
                   std::uint8_t const* const at = bytes.row(2) + u;
                   return *at == 0 && (at[-1] >= least || at[1] >= least ||
@@ -300,6 +312,53 @@ TEST(SegmentKernels, Front) {
                 }));
     }
   });
+}
+
+TEST(SegmentKernels, AtLeast) {
+  on_every_instruction_set([](int width) {
+    std::mt19937 random(static_cast<unsigned>(width));
+    Bytes const bytes = drawn<std::uint8_t>(width, [&] { return random() % 6; });
+    for (std::uint8_t least = 1; least <= 5; ++least) {
+      auto const enough = written_bits(width, [&](std::uint64_t* out) {
+        at_least_bits(bytes.row(2), least, static_cast<std::size_t>(width), out);
+      });
+      EXPECT_EQ(enough, plain_row<std::uint8_t>(
+                            width, [&](int u) { return bytes.row(2)[u] >= least ? 1 : 0; }));
+    }
+  });
+}
+
+TEST(SegmentKernels, Different) {
+  on_every_instruction_set([](int width) {
+    std::mt19937 random(static_cast<unsigned>(width));
+    auto const labels = drawn<std::int32_t>(width, [&] { return random() % 2 << (random() % 31); });
+    std::int32_t const* const a = labels.row(2);
+    for (std::ptrdiff_t const step : {std::ptrdiff_t{1}, labels.stride()}) {
+      auto const differs = written_bits(width, [&](std::uint64_t* out) {
+        different_bits(a, a + step, static_cast<std::size_t>(width), out);
+      });
+      EXPECT_EQ(differs,
+                plain_row<std::uint8_t>(width, [&](int u) { return a[u] != a[u + step] ? 1 : 0; }));
+    }
+  });
+}
+
+TEST(SegmentRowBits, AreFoundOneAfterTheOther) {
+  for (int const width : {1, 63, 64, 65, 200}) {
+    RowBits bits(width);
+    std::mt19937 random(static_cast<unsigned>(width));
+    std::vector<bool> expected(static_cast<std::size_t>(width));
+    for (int u = 0; u < width; ++u) {
+      bool const is_set = random() % 3 == 0 || (u > 70 && u < 150);
+      expected[static_cast<std::size_t>(u)] = is_set;
+      bits.data()[u / 64] |= std::uint64_t{is_set} << (u % 64);
+    }
+    for (int u = 0; u <= width; ++u) {
+      auto const from = expected.begin() + u;
+      EXPECT_EQ(bits.next_set(u), std::find(from, expected.end(), true) - expected.begin());
+      EXPECT_EQ(bits.next_clear(u), std::find(from, expected.end(), false) - expected.begin());
+    }
+  }
 }
 
 }  // namespace

@@ -46,11 +46,29 @@ TEST(SettleObjects, TheLittleThatTheyHoldOfASegmentGoesBack) {
   EXPECT_EQ(result.objects[0].pixel_count, 0U);
 }
 
+TEST(SettleObjects, AStripIsEnoughForTheRest) {
+  Segmentation const result = settle_objects(row_of(pixels(3, 0, 7)));
+  EXPECT_THAT(result.labels, Each(kTable));
+}
+
 TEST(SettleObjects, InBetweenNothingChanges) {
-  for (int const table : {3, 5}) {
-    Segmentation const before = row_of(pixels(table, 0, 10 - table));
-    EXPECT_EQ(settle_objects(before).labels, before.labels);
-  }
+  Segmentation const before = row_of(pixels(5, 0, 15));
+  EXPECT_EQ(settle_objects(before).labels, before.labels);
+}
+
+TEST(SettleObjects, WhatLiesOnASurfaceOfAnObjectIsNoneOfIt) {
+  // Eight pixels of a table, and two of a pen that the table's region has taken.
+  Segmentation before = row_of(pixels(10, 0, 0));
+  before.segments.labels[8] = before.segments.labels[9] = 2;
+  before.segments.pixel_counts = {8, 2};
+  before.segments.lies_on = {0, 1};
+  Segmentation const result = settle_objects(before);
+  EXPECT_EQ(result.labels[8], kUnassigned);
+  EXPECT_EQ(result.labels[9], kUnassigned);
+  EXPECT_EQ(result.objects[0].pixel_count, 8U);
+  // One that was told of keeps it.
+  before.labels[8] = before.labels[9] = kBox;
+  EXPECT_EQ(settle_objects(before).labels, before.labels);
 }
 
 TEST(SettleObjects, WhatBelongsToNoSegmentAndWhatHasNoDepthStay) {
