@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -23,7 +24,7 @@
 #include "stages/clustering/clustering.hpp"
 #include "stages/normals/normals.hpp"
 #include "stages/planes/planes.hpp"
-#include "stages/segments/segments.hpp"
+#include "stages/segments/things.hpp"
 
 namespace credo {
 namespace {
@@ -94,7 +95,11 @@ Times run(Scene const& scene) {
   std::array<double, kStages> ends_ms{thread_cpu_ms()};
   NormalMap const normals = estimate_normals(frame.cloud_camera, frame.intrinsics, {});
   ends_ms[1] = thread_cpu_ms();
-  segmentation.segments = convex_segments(frame.cloud_camera.z, frame.intrinsics.fx_px, {});
+  std::optional<Eigen::Vector3d> up_camera;
+  if (scene.level.floor_found) {
+    up_camera = segmentation.T_world_camera.rotation().inverse() * Eigen::Vector3d::UnitZ();
+  }
+  segmentation.segments = segment_things(frame.cloud_camera.z, frame.intrinsics, up_camera, {});
   ends_ms[2] = thread_cpu_ms();
   segmentation = extract_planes(frame, normals, std::move(segmentation), {});
   ends_ms[3] = thread_cpu_ms();

@@ -3,9 +3,8 @@
 #include <optional>
 #include <utility>
 
-#include "stages/segments/raised_things.hpp"
 #include "stages/segments/settling.hpp"
-#include "stages/segments/thing_parts.hpp"
+#include "stages/segments/things.hpp"
 
 namespace credo {
 namespace {
@@ -37,20 +36,11 @@ Segmentation find_objects(Frame const& frame, NormalMap const& normals, Segmenta
 /// Which way is up is known where the level is.
 Segmentation with_segments(Frame const& frame, Segmentation segmentation,
                            SegmentsConfig const& config) {
-  Grid<float> const& depth_m = frame.cloud_camera.z;
-  segmentation.segments = convex_segments(depth_m, frame.intrinsics.fx_px, config);
-  if (config.join_parts) {
-    std::optional<Eigen::Vector3d> up_camera;
-    if (segmentation.floor_at_zero) {
-      up_camera = segmentation.T_world_camera.rotation().inverse() * Eigen::Vector3d::UnitZ();
-    }
-    segmentation.segments =
-        join_parts(std::move(segmentation.segments), depth_m, frame.intrinsics, up_camera, config);
+  std::optional<Eigen::Vector3d> up_camera;
+  if (segmentation.floor_at_zero) {
+    up_camera = segmentation.T_world_camera.rotation().inverse() * Eigen::Vector3d::UnitZ();
   }
-  if (config.raised_quanta > 0.0) {
-    segmentation.segments = with_raised_things(std::move(segmentation.segments), depth_m,
-                                               frame.intrinsics.fx_px, config);
-  }
+  segmentation.segments = segment_things(frame.cloud_camera.z, frame.intrinsics, up_camera, config);
   return segmentation;
 }
 

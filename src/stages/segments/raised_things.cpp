@@ -1,8 +1,5 @@
 #include "stages/segments/raised_things.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,117 +10,20 @@
 #include <utility>
 #include <vector>
 
+#include "core/runs.hpp"
+#include "stages/segments/flat_surface.hpp"
+
 namespace credo {
 namespace {
 
+using segments::FlatSurface;
+
 /// Of the surfaces that things lie on, at the reference focal length.
 constexpr double kSurface_px = 8000.0;
-/// Points that a surface is fitted to, about, and planes that are tried.
-constexpr std::size_t kSamples = 1500;
-constexpr int kHypotheses = 60;
-/// Points so near are on it, and so much of a segment must be.
-constexpr double kOn_quanta = 2.0;
-constexpr double kMostlyOn = 0.5;
 /// What stands out does so by so many times the noise of a mean of nine pixels.
 constexpr double kNoises = 5.0;
 /// What is around a thing is the surface, but for this part.
 constexpr double kBeside = 0.4;
-
-/// A pixel and its inverse depth; across the image's width, u and v go from -0.5 to 0.5.
-struct Sample {
-  double u = 0.0;
-  double v = 0.0;
-  double quanta = 0.0;
-};
-
-/// Inverse depth of a surface that is bent a little.
-struct FlatSurface {
-  /// Of 1, u, v, u^2, u v, v^2.
-  Eigen::Matrix<double, 6, 1> coefficients = Eigen::Matrix<double, 6, 1>::Zero();
-  double rms_quanta = 0.0;
-
-  [[nodiscard]] double quanta(double u, double v) const {
-    auto const& c = coefficients;
-    return c[0] + u * (c[1] + u * c[3] + v * c[4]) + v * (c[2] + v * c[5]);
-  }
-  [[nodiscard]] bool has(Sample const& s) const {
-    return std::abs(s.quanta - quanta(s.u, s.v)) < kOn_quanta;
-  }
-};
-
-/// Least squares over what is on the surface so far; `terms` 3 for a plane, 6 for a bent one.
-FlatSurface fitted(std::vector<Sample> const& samples, FlatSurface const& so_far, int terms) {
-  Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, 1> products = Eigen::Matrix<double, 6, 1>::Zero();
-  double square_sum = 0.0;
-  double count = 0.0;
-  for (Sample const& s : samples) {
-    if (so_far.has(s)) {
-      Eigen::Matrix<double, 6, 1> row;
-      row << 1.0, s.u, s.v, s.u * s.u, s.u * s.v, s.v * s.v;
-      squares += row * row.transpose();
-      products += row * s.quanta;
-      square_sum += s.quanta * s.quanta;
-      count += 1.0;
-    }
-  }
-  FlatSurface surface;
-  auto const used_squares = squares.topLeftCorner(terms, terms);
-  surface.coefficients.head(terms) = used_squares.ldlt().solve(products.head(terms));
-  double const left = square_sum - surface.coefficients.dot(products);
-  surface.rms_quanta = count > 0.0 ? std::sqrt(std::max(0.0, left / count)) : 0.0;
-  return surface;
-}
-
-/// The plane through three points; none where they are nearly in line.
-std::optional<FlatSurface> through(Sample const& a, Sample const& b, Sample const& c) {
-  double const determinant = (b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v);
-  constexpr double kLeast = 1e-4;
-  if (std::abs(determinant) < kLeast) {
-    return std::nullopt;
-  }
-  double const per_u =
-      ((b.quanta - a.quanta) * (c.v - a.v) - (c.quanta - a.quanta) * (b.v - a.v)) / determinant;
-  double const per_v =
-      ((b.u - a.u) * (c.quanta - a.quanta) - (c.u - a.u) * (b.quanta - a.quanta)) / determinant;
-  FlatSurface plane;
-  plane.coefficients.head<3>() << a.quanta - per_u * a.u - per_v * a.v, per_u, per_v;
-  return plane;
-}
-
-std::size_t points_on(FlatSurface const& surface, std::vector<Sample> const& samples) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(samples, [&](Sample const& s) { return surface.has(s); }));
-}
-
-/// The surface that most of the samples are on; none where few are. Points are taken by a sequence
-/// that fills the unit cube evenly (Roberts 2018), so there is no seed.
-std::optional<FlatSurface> flat_surface(std::vector<Sample> const& samples) {
-  constexpr std::array<double, 3> kSteps = {0.8191725133961645, 0.6710436067037893,
-                                            0.5497004779019703};
-  FlatSurface best;
-  std::size_t most = 0;
-  auto const n = static_cast<double>(samples.size());
-  for (int k = 1; k <= kHypotheses; ++k) {
-    auto const pick = [&](double step) -> Sample const& {
-      double const at = k * step;
-      return samples[static_cast<std::size_t>((at - std::floor(at)) * n)];
-    };
-    auto const plane = through(pick(kSteps[0]), pick(kSteps[1]), pick(kSteps[2]));
-    if (!plane) {
-      continue;
-    }
-    if (std::size_t const count = points_on(*plane, samples); count > most) {
-      most = count;
-      best = *plane;
-    }
-  }
-  for (int const terms : {3, 3, 6, 6}) {
-    best = fitted(samples, best, terms);
-  }
-  bool const is_flat = static_cast<double>(points_on(best, samples)) >= kMostlyOn * n;
-  return is_flat ? std::optional(best) : std::nullopt;
-}
 
 /// What stands out of the large flat segments of an image.
 class Relief {
@@ -135,81 +35,38 @@ public:
         per_px_(1.0 / std::max(depth_m.width(), 1)),
         quantum_per_m_(config.quantum_per_m),
         raised_quanta_(config.raised_quanta),
-        scale_(focal_px / 525.0),
-        surfaces_(segments.pixel_counts.size() + 1) {
-    find_surfaces();
-  }
+        surfaces_(segments::flat_surfaces(segments, depth_m, config.quantum_per_m,
+                                          kSurface_px * focal_px / 525.0 * focal_px / 525.0)) {}
 
   /// Of each pixel, by how much of what a thing must stand out it does, as the mean over what is of
   /// its segment among itself and its eight neighbours: 1 or more is a thing's middle. 0 where
   /// there is no flat surface.
   [[nodiscard]] Grid<float> heights() const {
-    int const width = depth_m_.width();
     int const height = depth_m_.height();
-    Grid<float> result(width, height);
-    // Of three rows each; the row before the first has nothing.
-    RowSums const none(static_cast<std::size_t>(width));
-    std::array<RowSums, 3> rows = {none, none, none};
+    auto const width = static_cast<std::size_t>(depth_m_.width());
+    Grid<float> result(depth_m_.width(), height);
+    // The rows before the first and behind the last have nothing.
+    std::array<RowSums, 3> rows = {RowSums(width), RowSums(width), RowSums(width)};
     for (int v = 0; v <= height; ++v) {
-      fill(v, rows[static_cast<std::size_t>(v % 3)]);
-      if (v == 0) {
-        continue;
+      RowSums& below = rows[static_cast<std::size_t>(v % 3)];
+      if (v < height) {
+        fill(v, below);
+      } else {
+        std::ranges::fill(below.surface, 0);
       }
-      RowSums const& above = rows[static_cast<std::size_t>((v + 1) % 3)];
-      RowSums const& here = rows[static_cast<std::size_t>((v + 2) % 3)];
-      RowSums const& below = rows[static_cast<std::size_t>(v % 3)];
-      std::span<float> const row = result.row(v - 1);
-      for (std::size_t u = 0; u < row.size(); ++u) {
-        bool const up = above.surface[u] == here.surface[u];
-        bool const down = below.surface[u] == here.surface[u];
-        float const sum =
-            here.sums[u] + (up ? above.sums[u] : 0.0F) + (down ? below.sums[u] : 0.0F);
-        float const count =
-            here.counts[u] + (up ? above.counts[u] : 0.0F) + (down ? below.counts[u] : 0.0F);
-        row[u] = here.surface[u] != 0 ? sum / count : 0.0F;
+      if (v > 0) {
+        average(rows[static_cast<std::size_t>((v + 1) % 3)],
+                rows[static_cast<std::size_t>((v + 2) % 3)], below, result.row(v - 1));
       }
     }
     return result;
   }
 
 private:
-  void find_surfaces() {
-    double const least_px = kSurface_px * scale_ * scale_;
-    std::vector<std::vector<Sample>> samples(surfaces_.size());
-    std::vector<std::uint32_t> every(surfaces_.size(), 0);
-    std::vector<std::uint32_t> next(surfaces_.size(), 0);
-    for (std::size_t i = 1; i < surfaces_.size(); ++i) {
-      std::uint32_t const pixels = segments_.pixel_counts[i - 1];
-      every[i] =
-          pixels < least_px ? 0 : std::max(1U, pixels / static_cast<std::uint32_t>(kSamples));
-    }
-    for (int v = 0; v < depth_m_.height(); ++v) {
-      std::span<std::int32_t const> const row = segments_.labels.row(v);
-      for (int u = 0; u < depth_m_.width(); ++u) {
-        auto const label = static_cast<std::size_t>(row[static_cast<std::size_t>(u)]);
-        if (every[label] > 0 && ++next[label] == every[label]) {
-          next[label] = 0;
-          samples[label].push_back(
-              {across(u, depth_m_.width()), across(v, depth_m_.height()), quanta({u, v})});
-        }
-      }
-    }
-    for (std::size_t i = 1; i < surfaces_.size(); ++i) {
-      if (!samples[i].empty()) {
-        surfaces_[i] = flat_surface(samples[i]);
-      }
-    }
-  }
-
-  [[nodiscard]] double across(int at, int size) const { return (at - 0.5 * (size - 1)) * per_px_; }
-  [[nodiscard]] double quanta(Pixel p) const {
-    return 1.0 / (static_cast<double>(depth_m_[p]) * quantum_per_m_);
-  }
-
   /// Of a row: the segment whose flat surface is there, 0 for none, and of each pixel and those
   /// beside it that have the same, how many and their heights together.
   struct RowSums {
-    explicit RowSums(std::size_t width) : surface(width, 0), sums(width), counts(width) {}
+    explicit RowSums(std::size_t width) : surface(width), sums(width), counts(width) {}
     std::vector<std::int32_t> surface;
     std::vector<float> sums;
     std::vector<float> counts;
@@ -217,45 +74,62 @@ private:
 
   void fill(int v, RowSums& row) const {
     std::ranges::fill(row.surface, 0);
-    if (v == depth_m_.height()) {
-      return;
-    }
     std::span<std::int32_t const> const labels = segments_.labels.row(v);
+    std::vector<float> heights(labels.size() + 2);
     for (std::size_t begin = 0, end = 0; begin < labels.size(); begin = end) {
-      end = begin + 1;
-      while (end < labels.size() && labels[end] == labels[begin]) {
-        ++end;
+      end = run_end(labels, begin);
+      auto const& surface = surfaces_[static_cast<std::size_t>(labels[begin])];
+      if (!surface) {
+        continue;
       }
-      if (auto const& surface = surfaces_[static_cast<std::size_t>(labels[begin])]) {
-        std::fill(row.surface.begin() + static_cast<std::ptrdiff_t>(begin),
-                  row.surface.begin() + static_cast<std::ptrdiff_t>(end), labels[begin]);
-        fill_run(*surface, v, begin, end, row);
+      std::size_t const n = end - begin;
+      heights.front() = 0.0F;
+      heights[n + 1] = 0.0F;
+      find_heights(*surface, v, begin, std::span(heights).subspan(1, n));
+      std::fill_n(row.surface.begin() + static_cast<std::ptrdiff_t>(begin), n, labels[begin]);
+      for (std::size_t i = 0; i < n; ++i) {
+        row.sums[begin + i] = heights[i] + heights[i + 1] + heights[i + 2];
+        row.counts[begin + i] = 3.0F;
       }
+      row.counts[begin] -= 1.0F;
+      row.counts[end - 1] -= 1.0F;
     }
   }
 
-  void fill_run(FlatSurface const& surface, int v, std::size_t begin, std::size_t end,
-                RowSums& row) const {
-    double const least = std::max(raised_quanta_, kNoises * surface.rms_quanta / 3.0);
-    double const y = across(v, depth_m_.height());
-    float before = 0.0F;
-    float here = 0.0F;
-    // One behind, since a sum needs the height after it.
-    for (std::size_t u = begin; u <= end; ++u) {
-      float after = 0.0F;
-      if (u < end) {
-        auto const column = static_cast<int>(u);
-        double const over =
-            quanta({column, v}) - surface.quanta(across(column, depth_m_.width()), y);
-        // Far below or above is no height of a thing that lies there, but of another.
-        after = static_cast<float>(std::clamp(over / least, -4.0, 4.0));
-      }
-      if (u > begin) {
-        row.sums[u - 1] = before + here + after;
-        row.counts[u - 1] = 1.0F + (u - 1 > begin ? 1.0F : 0.0F) + (u < end ? 1.0F : 0.0F);
-      }
-      before = here;
-      here = after;
+  /// Of pixels side by side, from column `begin` on.
+  void find_heights(FlatSurface const& surface, int v, std::size_t begin,
+                    std::span<float> heights) const {
+    // Far below or above is no height of a thing that lies there, but of another.
+    constexpr float kFar = 4.0F;
+    auto const& c = surface.coefficients;
+    double const y = segments::across(v, depth_m_.height(), per_px_);
+    auto const at_middle = static_cast<float>(c[0] + y * (c[2] + y * c[5]));
+    auto const slope = static_cast<float>(c[1] + y * c[4]);
+    auto const bend = static_cast<float>(c[3]);
+    auto const quanta_m = static_cast<float>(1.0 / quantum_per_m_);
+    auto const share =
+        static_cast<float>(1.0 / std::max(raised_quanta_, kNoises * surface.rms_quanta / 3.0));
+    auto const first =
+        static_cast<float>(segments::across(static_cast<int>(begin), depth_m_.width(), per_px_));
+    auto const step = static_cast<float>(per_px_);
+    float const* const depth_m = depth_m_.row(v).data() + begin;
+    auto const n = static_cast<int>(heights.size());
+    for (int i = 0; i < n; ++i) {
+      float const x = first + step * static_cast<float>(i);
+      float const over = quanta_m / depth_m[i] - (at_middle + x * (slope + x * bend));
+      heights[static_cast<std::size_t>(i)] = std::max(-kFar, std::min(kFar, over * share));
+    }
+  }
+
+  static void average(RowSums const& above, RowSums const& here, RowSums const& below,
+                      std::span<float> result) {
+    for (std::size_t u = 0; u < result.size(); ++u) {
+      float const up = above.surface[u] == here.surface[u] ? 1.0F : 0.0F;
+      float const down = below.surface[u] == here.surface[u] ? 1.0F : 0.0F;
+      float const any = here.surface[u] != 0 ? 1.0F : 0.0F;
+      float const sum = here.sums[u] + up * above.sums[u] + down * below.sums[u];
+      float const count = here.counts[u] + up * above.counts[u] + down * below.counts[u];
+      result[u] = any * sum / std::max(count, 1.0F);
     }
   }
 
@@ -264,7 +138,6 @@ private:
   double per_px_;
   double quantum_per_m_;
   double raised_quanta_;
-  double scale_;
   /// By label.
   std::vector<std::optional<FlatSurface>> surfaces_;
 };
@@ -296,9 +169,21 @@ public:
 
   /// In the order of their first pixels at the level where they were found.
   std::vector<Raised> found() && {
-    for (std::size_t i = 0; i < heights_.size(); ++i) {
-      if (heights_[i] > kLevels.front() && levels_[i] == 0) {
-        look(i, 0);
+    constexpr std::size_t kStep = 16;
+    for (std::size_t begin = 0; begin < heights_.size(); begin += kStep) {
+      std::size_t const end = std::min(begin + kStep, heights_.size());
+      // All at once, so that it vectorises; hardly any are high.
+      float highest = 0.0F;
+      for (std::size_t i = begin; i < end; ++i) {
+        highest = std::max(highest, heights_[i]);
+      }
+      if (highest <= kLevels.front()) {
+        continue;
+      }
+      for (std::size_t i = begin; i < end; ++i) {
+        if (heights_[i] > kLevels.front() && levels_[i] == 0) {
+          look(i, 0);
+        }
       }
     }
     return std::move(found_);

@@ -4,15 +4,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "eval/evaluation.hpp"
 #include "io/image.hpp"
 #include "io/pcd.hpp"
-#include "stages/segments/raised_things.hpp"
 #include "stages/segments/segments.hpp"
-#include "stages/segments/thing_parts.hpp"
+#include "stages/segments/things.hpp"
 #include "support/literal_convexity.hpp"
 #include "support/recordings.hpp"
 
@@ -70,11 +68,11 @@ Scores table_top_scores(bool whole_things) {
   LabelEvaluation evaluation;
   for (std::filesystem::path const& file : table_tops()) {
     Grid<float> const depth_m = read_pcd(file, CloudAxes::kOptical, kFarthest_m).cloud_camera.z;
-    Segments segments = convex_segments(depth_m, kTableTopFocal_px, {});
-    if (whole_things) {
-      segments = join_parts(std::move(segments), depth_m, {}, std::nullopt, {});
-      segments = with_raised_things(std::move(segments), depth_m, kTableTopFocal_px, {});
-    }
+    SegmentsConfig config;
+    config.join_parts = whole_things;
+    config.raised_quanta = whole_things ? config.raised_quanta : 0.0;
+    Segments const segments =
+        segment_things(depth_m, {kTableTopFocal_px, kTableTopFocal_px}, std::nullopt, config);
     LabelMap labels(segments.labels.width(), segments.labels.height(), kUnassigned);
     std::ranges::transform(segments.labels, labels.begin(), [](std::int32_t label) {
       return label == 0 ? kUnassigned : static_cast<LabelCode>(kFirstStuff + label - 1);

@@ -1,0 +1,23 @@
+#include "stages/segments/things.hpp"
+
+#include <utility>
+
+#include "stages/segments/raised_things.hpp"
+#include "stages/segments/thing_parts.hpp"
+
+namespace credo {
+
+Segments segment_things(Grid<float> const& depth_m, CameraIntrinsics const& intrinsics,
+                        std::optional<Eigen::Vector3d> const& up_camera,
+                        SegmentsConfig const& config) {
+  Segments segments = convex_segments(depth_m, intrinsics.fx_px, config);
+  if (config.join_parts) {
+    segments = join_parts(std::move(segments), depth_m, intrinsics, up_camera, config);
+  }
+  if (config.raised_quanta > 0.0) {
+    segments = with_raised_things(std::move(segments), depth_m, intrinsics.fx_px, config);
+  }
+  return segments;
+}
+
+}  // namespace credo

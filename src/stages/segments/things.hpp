@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "core/frame.hpp"
+#include "core/grid.hpp"
+#include "core/segments.hpp"
+#include "stages/segments/segments.hpp"
+
+namespace credo {
+
+/// A frame in things: `convex_segments`, then `join_parts` and `with_raised_things`, as far as
+/// `config` has them. `up_camera` is a unit vector in the camera frame, where it is known.
+[[nodiscard]] Segments segment_things(Grid<float> const& depth_m,
+                                      CameraIntrinsics const& intrinsics,
+                                      std::optional<Eigen::Vector3d> const& up_camera,
+                                      SegmentsConfig const& config);
+
+}  // namespace credo
