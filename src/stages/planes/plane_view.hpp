@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "core/cloud.hpp"
+#include "core/plane.hpp"
+#include "core/se3.hpp"
+#include "stages/planes/pixel_set.hpp"
+#include "stages/planes/plane_pixels.hpp"
+#include "stages/planes/planes.hpp"
+
+namespace credo {
+
+/// What every step looks at. Planes are searched for where the depths are: in the camera frame.
+struct PlaneView {
+  OrganizedCloud const& cloud;
+  NormalMap const& normals;
+  Se3 const& T_world_camera;
+  PlanesConfig const& config;
+  PlaneTolerance tolerance;
+  /// All pixels with depth.
+  CountedPixels valid;
+};
+
+/// A plane with its pixels.
+struct PixelPlane {
+  Plane camera;
+  /// The same plane in the world frame.
+  Plane world;
+  CountedPixels inliers;
+};
+
+/// Height above z = 0 of a pixel.
+class Heights {
+public:
+  explicit Heights(PlaneView const& view)
+      : cloud_(view.cloud),
+        up_(view.T_world_camera.rotation().toRotationMatrix().row(2).cast<float>()),
+        camera_m_(static_cast<float>(view.T_world_camera.translation().z())) {}
+
+  [[nodiscard]] float operator()(std::size_t pixel) const {
+    return up_.dot(cloud_.at(pixel)) + camera_m_;
+  }
+
+private:
+  OrganizedCloud const& cloud_;
+  Eigen::Vector3f up_;
+  float camera_m_;
+};
+
+}  // namespace credo
