@@ -1,5 +1,7 @@
 #include "stages/planes/holes.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -36,10 +38,83 @@ CountedPixels whole_segments(CountedPixels pixels, CountedPixels const& unassign
   return pixels;
 }
 
-}  // namespace
+/// What floor and walls have of the segments.
+struct SegmentsHeld {
+  Grid<std::int32_t> const* labels;
+  std::size_t surfaces;
+  /// Of each segment: pixels without known objects', and those that any surface has.
+  std::vector<std::uint32_t> all, explained;
+  /// Of each segment, surface after surface: pixels that it has.
+  std::vector<std::uint32_t> held;
 
-void fill_holes(PlaneView const& view, std::vector<FoundSurface> const& found,
-                Segmentation& segmentation) {
+  [[nodiscard]] std::size_t segment_of(std::size_t pixel) const {
+    return static_cast<std::size_t>((*labels)[pixel]);
+  }
+  [[nodiscard]] bool mostly(std::size_t pixel) const {
+    std::size_t const segment = segment_of(pixel);
+    return segment != 0 && explained[segment] >= kMostlyShare * all[segment];
+  }
+  [[nodiscard]] bool hardly(std::size_t pixel, std::size_t surface) const {
+    std::size_t const segment = segment_of(pixel);
+    return held[segment * surfaces + surface] <= kHardlyShare * all[segment];
+  }
+};
+
+SegmentsHeld segments_held(Segmentation const& segmentation,
+                           std::vector<FoundSurface> const& found) {
+  SegmentsHeld result{&segmentation.segments.labels, found.size(), {}, {}, {}};
+  result.all.assign(segmentation.segments.pixel_counts.size() + 1, 0);
+  result.explained.assign(result.all.size(), 0);
+  result.held.assign(result.all.size() * found.size(), 0);
+  for (std::size_t i = 0; i < segmentation.labels.size(); ++i) {
+    std::size_t const segment = result.segment_of(i);
+    LabelCode const label = segmentation.labels[i];
+    if (label == kUnassigned) {
+      ++result.all[segment];
+      continue;
+    }
+    // A later plane may be more of the same floor: the first one counts for both.
+    auto const surface = std::ranges::find(found, label, &FoundSurface::label);
+    if (surface != found.end()) {
+      ++result.all[segment];
+      ++result.explained[segment];
+      ++result.held[segment * found.size() + static_cast<std::size_t>(surface - found.begin())];
+    }
+  }
+  return result;
+}
+
+/// Of the segments that floor and walls hold most of, the rest to the nearest.
+void complete_segments(PlaneView const& view, std::vector<FoundSurface> const& found,
+                       Segmentation& segmentation) {
+  if (segmentation.segments.labels.empty()) {
+    return;
+  }
+  SegmentsHeld const held = segments_held(segmentation, found);
+  PlaneTolerance const near = near_tolerance(view.tolerance, 0.0F);
+  Heights const height_m(view);
+  double const max_height_m = view.config.floor_max_height_m;
+  unassigned_pixels(segmentation.labels).pixels.for_each([&](std::size_t i) {
+    if (!held.mostly(i)) {
+      return;
+    }
+    bool const too_high = max_height_m > 0.0 && std::abs(height_m(i)) > max_height_m;
+    Eigen::Vector3d const p_camera = view.cloud.at(i).cast<double>();
+    double nearest_m = near.distance_m(view.cloud.z[i]);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      double const distance_m = std::abs(found[k].camera.signed_distance_m(p_camera));
+      bool const allowed = !held.hardly(i, k) && !(too_high && found[k].label == kFloor);
+      if (allowed && distance_m <= nearest_m) {
+        nearest_m = distance_m;
+        segmentation.labels[i] = found[k].label;
+      }
+    }
+  });
+}
+
+/// Pixels that all but lie in a plane to the first such.
+void complete_planes(PlaneView const& view, std::vector<FoundSurface> const& found,
+                     Segmentation& segmentation) {
   constexpr float kAllBut = 0.5F;
   PlaneTolerance const close{kAllBut * view.tolerance.fixed_m,
                              kAllBut * view.tolerance.noise_sigmas, 0.0F};
@@ -54,6 +129,14 @@ void fill_holes(PlaneView const& view, std::vector<FoundSurface> const& found,
     joining.pixels.for_each([&, code = label](std::size_t i) { segmentation.labels[i] = code; });
     unassigned.remove(joining);
   }
+}
+
+}  // namespace
+
+void fill_holes(PlaneView const& view, std::vector<FoundSurface> const& found,
+                Segmentation& segmentation) {
+  complete_segments(view, found, segmentation);
+  complete_planes(view, found, segmentation);
 }
 
 }  // namespace credo

@@ -29,7 +29,16 @@ struct PixelPlane {
   /// The same plane in the world frame.
   Plane world;
   CountedPixels inliers;
+  /// More pixels of its segments, not so exactly in the plane.
+  CountedPixels joined{PixelSet(0), 0};
 };
+
+/// What is near enough to a plane for a pixel whose segment the plane holds anyway: three times the
+/// distance, but noise alone takes few points beyond six of its sigmas.
+[[nodiscard]] inline PlaneTolerance near_tolerance(PlaneTolerance const& tolerance,
+                                                   float min_cosine) {
+  return {3.0F * tolerance.fixed_m, 1.5F * tolerance.noise_sigmas, min_cosine};
+}
 
 /// Height above z = 0 of a pixel.
 class Heights {

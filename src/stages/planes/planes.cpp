@@ -25,7 +25,8 @@ PlaneTolerance tolerance_of(PlanesConfig const& config) {
                                              : 0.0F};
 }
 
-/// Writes the label on the plane's pixels and returns their world points, thinned.
+/// Writes the label on all of the plane's pixels and returns the world points of those that lie in
+/// it, thinned.
 PointList label_pixels(PlaneView const& view, PixelPlane const& plane, LabelCode code,
                        LabelMap& labels) {
   Eigen::Matrix3f const rotation = view.T_world_camera.rotation().toRotationMatrix().cast<float>();
@@ -36,14 +37,17 @@ PointList label_pixels(PlaneView const& view, PixelPlane const& plane, LabelCode
     labels[i] = code;
     points.emplace_back(rotation * view.cloud.at(i) + translation);
   });
+  plane.joined.pixels.for_each([&](std::size_t i) { labels[i] = code; });
   return thin_points(points, static_cast<float>(view.config.point_spacing_m));
 }
 
 void add_floor(PlaneView const& view, PixelPlane plane, Segmentation& segmentation) {
   plane.inliers = low_pixels(view, std::move(plane.inliers));
+  plane.joined = low_pixels(view, std::move(plane.joined));
   PointList added = label_pixels(view, plane, kFloor, segmentation.labels);
+  std::size_t const pixel_count = plane.inliers.count + plane.joined.count;
   if (!segmentation.floor) {
-    segmentation.floor = FloorObservation{plane.world, std::move(added), plane.inliers.count};
+    segmentation.floor = FloorObservation{plane.world, std::move(added), pixel_count};
     return;
   }
   // A later plane that passes too is more of the same floor; the largest one's fit stays.
@@ -51,7 +55,7 @@ void add_floor(PlaneView const& view, PixelPlane plane, Segmentation& segmentati
   floor.points_world.insert(floor.points_world.end(), added.begin(), added.end());
   floor.points_world =
       thin_points(floor.points_world, static_cast<float>(view.config.point_spacing_m));
-  floor.pixel_count += plane.inliers.count;
+  floor.pixel_count += pixel_count;
 }
 
 void add_wall(PlaneView const& view, PixelPlane const& plane, Segmentation& segmentation) {
@@ -60,7 +64,7 @@ void add_wall(PlaneView const& view, PixelPlane const& plane, Segmentation& segm
   bool const faces_camera = plane.world.signed_distance_m(view.T_world_camera.translation()) >= 0.0;
   wall.plane_world = faces_camera ? plane.world : plane.world.flipped();
   wall.points_world = label_pixels(view, plane, wall.label, segmentation.labels);
-  wall.pixel_count = plane.inliers.count;
+  wall.pixel_count = plane.inliers.count + plane.joined.count;
   segmentation.walls.push_back(std::move(wall));
 }
 

@@ -8,8 +8,8 @@
 namespace credo {
 namespace {
 
-/// So many tolerances from the plane is near enough for what is on its segment anyway.
-constexpr float kNear = 3.0F;
+/// 60 degrees: more than noise turns most normals by, less than the next wall is turned.
+constexpr float kLooseCosine = 0.5F;
 
 }  // namespace
 
@@ -49,39 +49,47 @@ void RemainingPoints::settle(PixelPlane& plane) {
   if (eligible_.empty()) {
     return;
   }
-  std::vector<std::uint32_t> const held = held_by(plane);
-  auto const share = [&](std::size_t i) {
-    std::size_t const segment = segment_of(i);
-    return segment == 0
-               ? 0.5
-               : static_cast<double>(held[segment]) / static_cast<double>(eligible_[segment]);
-  };
+  std::vector<Held> const held = held_of_segments(plane);
   CountedPixels back{PixelSet(view_.cloud.size()), 0};
   plane.inliers.pixels.for_each([&](std::size_t i) {
-    if (share(i) <= kHardlyShare) {
+    if (held[segment_of(i)] == Held::kHardly) {
       back.insert(i);
     }
   });
-  CountedPixels near{PixelSet(view_.cloud.size()), 0};
+  CountedPixels around{PixelSet(view_.cloud.size()), 0};
   pixels_.pixels.for_each([&](std::size_t i) {
-    if (share(i) >= kMostlyShare) {
-      near.insert(i);
+    if (held[segment_of(i)] == Held::kMostly) {
+      around.insert(i);
     }
   });
-  PlaneTolerance const wide{kNear * view_.tolerance.fixed_m, kNear * view_.tolerance.noise_sigmas,
-                            0.0F};
-  near = plane_inliers(plane.camera, view_.cloud, view_.normals, near.pixels, wide);
-  pixels_.remove(near);
+  // Not what faces elsewhere: the next wall, where no crease parts it from this one.
+  plane.joined = plane_inliers(plane.camera, view_.cloud, view_.normals, around.pixels,
+                               near_tolerance(view_.tolerance, kLooseCosine));
+  pixels_.remove(plane.joined);
   plane.inliers.remove(back);
-  near.pixels.for_each([&](std::size_t i) { plane.inliers.insert(i); });
   back.pixels.for_each([&](std::size_t i) { pixels_.insert(i); });
-  plane.inliers.pixels.for_each([&](std::size_t i) { --eligible_[segment_of(i)]; });
+  auto const take = [&](std::size_t i) { --eligible_[segment_of(i)]; };
+  plane.inliers.pixels.for_each(take);
+  plane.joined.pixels.for_each(take);
 }
 
-/// Of each segment, how many pixels a plane has.
-std::vector<std::uint32_t> RemainingPoints::held_by(PixelPlane const& plane) const {
-  std::vector<std::uint32_t> held(eligible_.size(), 0);
-  plane.inliers.pixels.for_each([&](std::size_t i) { ++held[segment_of(i)]; });
+std::vector<RemainingPoints::Held> RemainingPoints::held_of_segments(
+    PixelPlane const& plane) const {
+  PlaneTolerance const by_distance{view_.tolerance.fixed_m, view_.tolerance.noise_sigmas, 0.0F};
+  CountedPixels const in_plane =
+      plane_inliers(plane.camera, view_.cloud, view_.normals, pixels_.pixels, by_distance);
+  std::vector<std::uint32_t> inliers(eligible_.size(), 0);
+  std::vector<std::uint32_t> turned(eligible_.size(), 0);
+  plane.inliers.pixels.for_each([&](std::size_t i) { ++inliers[segment_of(i)]; });
+  in_plane.pixels.for_each([&](std::size_t i) { ++turned[segment_of(i)]; });
+  std::vector<Held> held(eligible_.size(), Held::kPartly);
+  for (std::size_t k = 1; k < held.size(); ++k) {
+    if (inliers[k] <= kHardlyShare * eligible_[k]) {
+      held[k] = Held::kHardly;
+    } else if (inliers[k] + turned[k] >= kMostlyShare * eligible_[k]) {
+      held[k] = Held::kMostly;
+    }
+  }
   return held;
 }
 
@@ -103,7 +111,9 @@ void RemainingPoints::refresh_sample() {
 PixelPlane RemainingPoints::oriented(Plane const& camera, CountedPixels inliers) const {
   Plane const world = transformed(view_.T_world_camera, camera);
   bool const up = world.normal.z() >= 0.0;
-  return {up ? camera : camera.flipped(), up ? world : world.flipped(), std::move(inliers)};
+  return PixelPlane{.camera = up ? camera : camera.flipped(),
+                    .world = up ? world : world.flipped(),
+                    .inliers = std::move(inliers)};
 }
 
 }  // namespace credo

@@ -25,7 +25,11 @@ public:
   void settle(PixelPlane& plane);
 
 private:
-  [[nodiscard]] std::vector<std::uint32_t> held_by(PixelPlane const& plane) const;
+  /// How much of a segment a plane holds. The pixels that are on none are kPartly.
+  enum class Held : std::uint8_t { kHardly, kPartly, kMostly };
+  /// Noise turns normals before it moves points: once a plane holds some of a segment, all of its
+  /// pixels that lie in the plane speak for it, whatever their normals.
+  [[nodiscard]] std::vector<Held> held_of_segments(PixelPlane const& plane) const;
   [[nodiscard]] std::size_t segment_of(std::size_t pixel) const {
     return static_cast<std::size_t>(segments_.labels[pixel]);
   }
