@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "stages/planes/wall_strips.hpp"
+
 namespace credo {
 namespace {
 
@@ -22,26 +24,57 @@ double vertical_extent_m(PlaneView const& view, PixelPlane const& plane) {
   return static_cast<double>(heights[static_cast<std::size_t>(top)] - low_m);
 }
 
+/// Whether pixels are more than noise puts beyond a wall of this size.
+bool are_many(PlaneView const& view, PixelPlane const& plane, std::size_t pixels) {
+  PlanesConfig const& config = view.config;
+  double const allowed =
+      std::max(static_cast<double>(config.wall_max_points_beyond),
+               config.wall_max_share_beyond * static_cast<double>(plane.inliers.count));
+  return static_cast<double>(pixels) > allowed;
+}
+
+/// Thesis 3.2: nearly nothing on one of its sides, whichever.
+bool has_nothing_on_a_side(PlaneView const& view, PixelPlane const& plane) {
+  auto const many_behind = [&](Plane const& side) {
+    return are_many(view, plane,
+                    pixels_behind(side, view.cloud, view.valid.pixels, view.tolerance).count);
+  };
+  return !many_behind(plane.camera) || !many_behind(plane.camera.flipped());
+}
+
+/// Nearly nothing behind it; or else it is long, and what is behind it is seen through openings in
+/// it or round the one corner where it ends.
+bool closes_the_view(PlaneView const& view, PixelPlane const& plane) {
+  // Longer than a person is wide.
+  constexpr double kMinLength_m = 0.7;
+  constexpr double kMinClosedShare = 0.6;
+  constexpr double kMaxBackedShare = 0.2;
+  // The camera is at the origin.
+  bool const faces_camera = plane.camera.signed_distance_m(Eigen::Vector3d::Zero()) >= 0.0;
+  CountedPixels const behind = pixels_behind(faces_camera ? plane.camera : plane.camera.flipped(),
+                                             view.cloud, view.valid.pixels, view.tolerance);
+  if (!are_many(view, plane, behind.count)) {
+    return true;
+  }
+  WallStrips const strips = wall_strips(view, plane, behind);
+  bool const ends_left = are_many(view, plane, strips.past_left);
+  bool const ends_right = are_many(view, plane, strips.past_right);
+  auto const strips_seen = static_cast<double>(strips.closed + strips.open);
+  return strips.closed_length_m >= kMinLength_m &&
+         static_cast<double>(strips.closed) >= kMinClosedShare * strips_seen &&
+         !(ends_left && ends_right) &&
+         static_cast<double>(strips.backed) <= kMaxBackedShare * static_cast<double>(behind.count);
+}
+
 }  // namespace
 
 bool is_wall(PlaneView const& view, PixelPlane const& plane) {
   PlanesConfig const& config = view.config;
   Eigen::Vector3d const n = plane.world.normal.cwiseAbs();
-  if (!(n.z() < config.wall_max_normal_z) ||
-      !(std::max(n.x(), n.y()) > config.wall_min_normal_xy) ||
-      plane.inliers.count < static_cast<std::size_t>(config.wall_min_pixels)) {
-    return false;
-  }
-  SideCounts const sides = count_sides(plane.camera, view.cloud, view.valid.pixels, view.tolerance);
-  double const allowed =
-      std::max(static_cast<double>(config.wall_max_points_beyond),
-               config.wall_max_share_beyond * static_cast<double>(plane.inliers.count));
-  // The camera is at the origin.
-  bool const faces_camera = plane.camera.signed_distance_m(Eigen::Vector3d::Zero()) >= 0.0;
-  std::size_t const behind = faces_camera ? sides.back : sides.front;
-  std::size_t const beyond =
-      config.wall_beyond == WallBeyond::kBehind ? behind : std::min(sides.front, sides.back);
-  return static_cast<double>(beyond) <= allowed &&
+  return n.z() < config.wall_max_normal_z && std::max(n.x(), n.y()) > config.wall_min_normal_xy &&
+         plane.inliers.count >= static_cast<std::size_t>(config.wall_min_pixels) &&
+         (config.wall_beyond == WallBeyond::kBehind ? closes_the_view(view, plane)
+                                                    : has_nothing_on_a_side(view, plane)) &&
          vertical_extent_m(view, plane) >= config.wall_min_extent_m;
 }
 

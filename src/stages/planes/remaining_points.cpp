@@ -1,6 +1,7 @@
 #include "stages/planes/remaining_points.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "geometry/segment_shares.hpp"
@@ -10,6 +11,9 @@ namespace {
 
 /// 60 degrees: more than noise turns most normals by, less than the next wall is turned.
 constexpr float kLooseCosine = 0.5F;
+/// Points of a segment in the same plane lie on both of its sides: their mean distance from it is
+/// within this part of their tolerance.
+constexpr double kMostBias = 0.25;
 
 }  // namespace
 
@@ -29,11 +33,14 @@ std::optional<PixelPlane> RemainingPoints::take_largest(std::uint32_t seed) {
     return std::nullopt;
   }
   refresh_sample();
-  std::optional<FoundPlane> const found =
+  std::optional<FoundPlane> found =
       find_largest_plane(sample_, {config.sampling, config.max_angle_rad, config.confidence,
                                    config.max_hypotheses, config.scoring_points, seed});
   if (!found) {
     return std::nullopt;
+  }
+  if (!eligible_.empty() && is_upright(found->plane)) {
+    found = fitted_to_segments(*std::move(found));
   }
   CountedPixels inliers =
       plane_inliers(found->plane, view_.cloud, view_.normals, pixels_.pixels, view_.tolerance);
@@ -43,6 +50,55 @@ std::optional<PixelPlane> RemainingPoints::take_largest(std::uint32_t seed) {
   pixels_.remove(inliers);
   sample_.remove(found->inliers);
   return oriented(found->plane, std::move(inliers));
+}
+
+bool RemainingPoints::is_upright(Plane const& camera) const {
+  Eigen::Vector3d const normal_world = view_.T_world_camera.rotation() * camera.normal;
+  return std::abs(normal_world.z()) < view_.config.wall_max_normal_z;
+}
+
+FoundPlane RemainingPoints::fitted_to_segments(FoundPlane found) const {
+  std::vector<std::uint32_t> inliers(eligible_.size(), 0);
+  for (std::size_t i = 0; i < sample_.size(); ++i) {
+    inliers[segment_of(sample_.source[i])] += found.inliers[i];
+  }
+  auto const largest = static_cast<std::size_t>(
+      std::max_element(inliers.begin() + 1, inliers.end()) - inliers.begin());
+  std::optional<Plane> const of_largest =
+      fit_plane(sample_, flags_where([&](std::size_t i, std::size_t segment) {
+                  return found.inliers[i] != 0 && segment == largest;
+                }),
+                found.plane.normal);
+  if (!of_largest) {
+    return found;
+  }
+  double const angle_rad = view_.config.max_angle_rad;
+  std::vector<std::uint8_t> const near = inliers_of(*of_largest, sample_, angle_rad).inliers;
+  std::vector<double> const bias = mean_distances(*of_largest, near);
+  std::optional<Plane> const of_coplanar =
+      fit_plane(sample_, flags_where([&](std::size_t i, std::size_t segment) {
+                  return near[i] != 0 && segment != 0 && std::abs(bias[segment]) <= kMostBias;
+                }),
+                found.plane.normal);
+  return of_coplanar ? inliers_of(*of_coplanar, sample_, angle_rad) : found;
+}
+
+std::vector<double> RemainingPoints::mean_distances(Plane const& plane,
+                                                    std::vector<std::uint8_t> const& flags) const {
+  std::vector<double> sums(eligible_.size(), 0.0);
+  std::vector<std::uint32_t> counts(eligible_.size(), 0);
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    if (flags[i] != 0) {
+      Eigen::Vector3d const p(sample_.x[i], sample_.y[i], sample_.z[i]);
+      std::size_t const segment = segment_of(sample_.source[i]);
+      sums[segment] += plane.signed_distance_m(p) / static_cast<double>(sample_.tolerance_m[i]);
+      ++counts[segment];
+    }
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    sums[k] /= std::max<std::uint32_t>(1, counts[k]);
+  }
+  return sums;
 }
 
 void RemainingPoints::settle(PixelPlane& plane) {

@@ -34,6 +34,22 @@ private:
     return static_cast<std::size_t>(segments_.labels[pixel]);
   }
   void refresh_sample();
+  [[nodiscard]] bool is_upright(Plane const& camera) const;
+  /// Fitted to the segment that has most of its points in it, and to those that are coplanar with
+  /// that one: a plane laid through a wall and the door before it, between both, turns to one.
+  [[nodiscard]] FoundPlane fitted_to_segments(FoundPlane found) const;
+  /// Of each segment, the mean signed distance of its flagged sample points, in tolerances.
+  [[nodiscard]] std::vector<double> mean_distances(Plane const& plane,
+                                                   std::vector<std::uint8_t> const& flags) const;
+  /// A flag for each point of the sample: whether `test(point, segment)`.
+  template <typename Test>
+  [[nodiscard]] std::vector<std::uint8_t> flags_where(Test const& test) const {
+    std::vector<std::uint8_t> flags(sample_.size());
+    for (std::size_t i = 0; i < flags.size(); ++i) {
+      flags[i] = test(i, segment_of(sample_.source[i])) ? 1 : 0;
+    }
+    return flags;
+  }
   [[nodiscard]] PixelPlane oriented(Plane const& camera, CountedPixels inliers) const;
 
   PlaneView const& view_;

@@ -129,6 +129,25 @@ TEST(PlanesOfSegments, WhatFacesElsewhereIsThePartOfAnotherWall) {
   }
 }
 
+TEST(PlanesOfSegments, AWallAndADoorBeforeItAreNotOnePlaneBetweenBoth) {
+  // Along a corridor: farther on, noise hides that the door stands before the wall.
+  WorldScene scene = WorldScene().with_floor();
+  scene.with_box({1.0, -1.0, 0.0}, {1.1, 8.0, 2.6}).with_box({0.94, 1.2, 0.0}, {1.0, 2.8, 2.2});
+  Shot const shot = shot_of(scene, camera_looking_along_y(1.3, 0.1));
+  Segmentation const result = planes_of(shot, [](Eigen::Vector3d const& p) {
+    if (p.x() > 1.0 - 1e-3) {
+      return 1;
+    }
+    return is_on_floor(p) ? 2 : 3;
+  });
+  ASSERT_FALSE(result.walls.empty());
+  for (WallObservation const& wall : result.walls) {
+    EXPECT_LT(wall.plane_world.normal.x(), -0.9999);
+    double const x_m = -wall.plane_world.offset_m;
+    EXPECT_LT(std::min(std::abs(x_m - 1.0), std::abs(x_m - 0.94)), 0.002) << x_m;
+  }
+}
+
 TEST(PlanesOfSegments, NoiseMakesNoHolesInAWall) {
   // Six of ten pixels lie 1.8 cm too near, within the tolerance, and their normals are turned: most
   // by 45 degrees, some by 90.
