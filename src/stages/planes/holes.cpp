@@ -66,19 +66,21 @@ SegmentsHeld segments_held(Segmentation const& segmentation,
   result.all.assign(segmentation.segments.pixel_counts.size() + 1, 0);
   result.explained.assign(result.all.size(), 0);
   result.held.assign(result.all.size() * found.size(), 0);
+  // A later plane may be more of the same floor: one counts for both.
+  std::vector<std::size_t> surface_of(kFirstObject, found.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    surface_of[found[k].label] = k;
+  }
   for (std::size_t i = 0; i < segmentation.labels.size(); ++i) {
-    std::size_t const segment = result.segment_of(i);
     LabelCode const label = segmentation.labels[i];
-    if (label == kUnassigned) {
-      ++result.all[segment];
+    if (label == kNoDepth || label >= kFirstObject) {
       continue;
     }
-    // A later plane may be more of the same floor: the first one counts for both.
-    auto const surface = std::ranges::find(found, label, &FoundSurface::label);
-    if (surface != found.end()) {
-      ++result.all[segment];
+    std::size_t const segment = result.segment_of(i);
+    ++result.all[segment];
+    if (surface_of[label] < found.size()) {
       ++result.explained[segment];
-      ++result.held[segment * found.size() + static_cast<std::size_t>(surface - found.begin())];
+      ++result.held[segment * found.size() + surface_of[label]];
     }
   }
   return result;

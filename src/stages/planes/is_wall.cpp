@@ -10,12 +10,14 @@
 namespace credo {
 namespace {
 
-/// Height from the lowest to the highest pixel, without the outermost per cent at either end.
+/// Height from the lowest to the highest of every few pixels, without the outermost per cent at
+/// either end.
 double vertical_extent_m(PlaneView const& view, PixelPlane const& plane) {
+  constexpr std::size_t kEvery = 7;
   Heights const height_m(view);
   std::vector<float> heights;
-  heights.reserve(plane.inliers.count);
-  plane.inliers.pixels.for_each([&](std::size_t i) { heights.push_back(height_m(i)); });
+  heights.reserve(plane.inliers.count / kEvery + 1);
+  plane.inliers.pixels.for_every(kEvery, [&](std::size_t i) { heights.push_back(height_m(i)); });
   auto const cut = static_cast<std::ptrdiff_t>(heights.size() / 100);
   auto const top = static_cast<std::ptrdiff_t>(heights.size()) - 1 - cut;
   std::nth_element(heights.begin(), heights.begin() + cut, heights.end());

@@ -9,6 +9,8 @@ namespace credo {
 namespace {
 
 constexpr std::size_t kStrips = 64;
+/// Every so manieth pixel is looked at: no divisor of a picture's width, so that all columns are.
+constexpr std::size_t kEvery = 7;
 /// A strip with a smaller part of a fair share of the plane's pixels does not show it.
 constexpr double kLeastPart = 0.1;
 
@@ -58,7 +60,7 @@ Strips counted_strips(PlaneView const& view, PixelPlane const& plane, CountedPix
   Bearings const bearing(view);
   float least = std::numeric_limits<float>::infinity();
   float most = -least;
-  plane.inliers.pixels.for_each([&](std::size_t i) {
+  plane.inliers.pixels.for_every(kEvery, [&](std::size_t i) {
     least = std::min(least, bearing(i));
     most = std::max(most, bearing(i));
   });
@@ -77,14 +79,14 @@ Strips counted_strips(PlaneView const& view, PixelPlane const& plane, CountedPix
       plane.world.normal.cross(Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Vector3f const along =
       (view.T_world_camera.rotation().conjugate() * along_world).cast<float>();
-  plane.inliers.pixels.for_each([&](std::size_t i) {
+  plane.inliers.pixels.for_every(kEvery, [&](std::size_t i) {
     Strip& strip = strip_of(i);
     float const along_m = along.dot(view.cloud.at(i));
     ++strip.shown;
     strip.low_m = std::min(strip.low_m, along_m);
     strip.high_m = std::max(strip.high_m, along_m);
   });
-  behind.pixels.for_each([&](std::size_t i) {
+  behind.pixels.for_every(kEvery, [&](std::size_t i) {
     Strip& strip = strip_of(i);
     bool const is_parallel = std::abs(normal.dot(view.normals.at(i))) >= kParallelCosine;
     float const depth_m = std::abs(normal.dot(view.cloud.at(i)) - offset_m);
@@ -99,7 +101,7 @@ Strips counted_strips(PlaneView const& view, PixelPlane const& plane, CountedPix
 WallStrips wall_strips(PlaneView const& view, PixelPlane const& plane,
                        CountedPixels const& behind) {
   Strips const strips = counted_strips(view, plane, behind);
-  double const fair_share = static_cast<double>(plane.inliers.count) / kStrips;
+  double const fair_share = static_cast<double>(plane.inliers.count) / (kStrips * kEvery);
   auto const shows_plane = [&](Strip const& strip) {
     return static_cast<double>(strip.shown) >= kLeastPart * fair_share;
   };
@@ -111,9 +113,9 @@ WallStrips wall_strips(PlaneView const& view, PixelPlane const& plane,
   for (auto strip = strips.begin(); strip != strips.end(); ++strip) {
     double const allowed =
         view.config.wall_max_share_beyond * std::max(fair_share, static_cast<double>(strip->shown));
-    result.backed += strip->backed;
+    result.backed += kEvery * strip->backed;
     if (strip < first || strip >= last) {
-      (strip < first ? result.past_left : result.past_right) += strip->behind;
+      (strip < first ? result.past_left : result.past_right) += kEvery * strip->behind;
     } else if (static_cast<double>(strip->behind) > allowed) {
       ++result.open;
     } else if (shows_plane(*strip)) {
