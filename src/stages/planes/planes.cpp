@@ -89,8 +89,11 @@ Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmen
       found.push_back({kFloor, plane->camera});
     } else if (segmentation.walls.size() < kMaxWalls && is_wall(view, *plane)) {
       remaining.settle(*plane);
-      add_wall(view, *plane, segmentation);
-      found.push_back({segmentation.walls.back().label, plane->camera});
+      // It may have held hardly anything of all its segments.
+      if (plane->inliers.count >= static_cast<std::size_t>(config.wall_min_pixels)) {
+        add_wall(view, *plane, segmentation);
+        found.push_back({segmentation.walls.back().label, plane->camera});
+      }
     }
   }
   if (view.tolerance.min_cosine > 0.0F) {

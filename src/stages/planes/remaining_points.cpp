@@ -14,7 +14,6 @@ constexpr float kLooseCosine = 0.5F;
 /// Points of a segment in the same plane lie on both of its sides: their mean distance from it is
 /// within this part of their tolerance.
 constexpr double kMostBias = 0.25;
-constexpr double kAllBut = 0.98;
 
 }  // namespace
 
@@ -65,9 +64,6 @@ FoundPlane RemainingPoints::fitted_to_segments(FoundPlane found) const {
   }
   auto const largest = static_cast<std::size_t>(
       std::max_element(inliers.begin() + 1, inliers.end()) - inliers.begin());
-  if (inliers[largest] >= kAllBut * static_cast<double>(found.inlier_count)) {
-    return found;
-  }
   std::optional<Plane> const of_largest =
       fit_plane(sample_, flags_where([&](std::size_t i, std::size_t segment) {
                   return found.inliers[i] != 0 && segment == largest;

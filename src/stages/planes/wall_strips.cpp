@@ -9,10 +9,20 @@ namespace credo {
 namespace {
 
 constexpr std::size_t kStrips = 64;
-/// Every so manieth pixel is looked at: no divisor of a picture's width, so that all columns are.
-constexpr std::size_t kEvery = 7;
+/// Of all pixels of the picture every so manieth is looked at: no divisor of usual widths, so that
+/// all columns are.
+constexpr std::size_t kEvery = 11;
 /// A strip with a smaller part of a fair share of the plane's pixels does not show it.
 constexpr double kLeastPart = 0.1;
+
+template <typename Visit>
+void for_some(CountedPixels const& pixels, Visit const& visit) {
+  pixels.pixels.for_each([&](std::size_t i) {
+    if (i % kEvery == 0) {
+      visit(i);
+    }
+  });
+}
 
 /// Where pixels are from left to right, however the camera is turned: the tangent of the angle from
 /// the camera's heading. Strips of equal tangent are equally wide in a level camera's picture.
@@ -60,7 +70,7 @@ Strips counted_strips(PlaneView const& view, PixelPlane const& plane, CountedPix
   Bearings const bearing(view);
   float least = std::numeric_limits<float>::infinity();
   float most = -least;
-  plane.inliers.pixels.for_every(kEvery, [&](std::size_t i) {
+  for_some(plane.inliers, [&](std::size_t i) {
     least = std::min(least, bearing(i));
     most = std::max(most, bearing(i));
   });
@@ -79,14 +89,14 @@ Strips counted_strips(PlaneView const& view, PixelPlane const& plane, CountedPix
       plane.world.normal.cross(Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Vector3f const along =
       (view.T_world_camera.rotation().conjugate() * along_world).cast<float>();
-  plane.inliers.pixels.for_every(kEvery, [&](std::size_t i) {
+  for_some(plane.inliers, [&](std::size_t i) {
     Strip& strip = strip_of(i);
     float const along_m = along.dot(view.cloud.at(i));
     ++strip.shown;
     strip.low_m = std::min(strip.low_m, along_m);
     strip.high_m = std::max(strip.high_m, along_m);
   });
-  behind.pixels.for_every(kEvery, [&](std::size_t i) {
+  for_some(behind, [&](std::size_t i) {
     Strip& strip = strip_of(i);
     bool const is_parallel = std::abs(normal.dot(view.normals.at(i))) >= kParallelCosine;
     float const depth_m = std::abs(normal.dot(view.cloud.at(i)) - offset_m);
@@ -124,7 +134,10 @@ WallStrips wall_strips(PlaneView const& view, PixelPlane const& plane,
       high_m = std::max(high_m, strip->high_m);
     }
   }
-  result.closed_length_m = result.closed > 0 ? static_cast<double>(high_m - low_m) : 0.0;
+  if (result.closed > 0) {
+    result.closed_length_m = static_cast<double>(high_m - low_m) *
+                             static_cast<double>(result.closed) / static_cast<double>(last - first);
+  }
   return result;
 }
 

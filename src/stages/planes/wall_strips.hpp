@@ -14,7 +14,8 @@ struct WallStrips {
   std::size_t closed = 0;
   /// Strips between the first and the last that show the plane with more behind it than that.
   std::size_t open = 0;
-  /// Level distance on the plane between the outer edges of the closed strips.
+  /// How long the plane is, level, from the first to the last of the closed strips, and of that the
+  /// closed strips' part.
   double closed_length_m = 0.0;
   /// Pixels behind the plane that are seen past its ends: a free end is a corner of the wall, or
   /// the side of a thing.

@@ -24,10 +24,9 @@ Eigen::Vector3d position_m(Shot const& shot, std::size_t i) {
   return shot.T_world_camera * shot.frame.cloud_camera.at(i).cast<double>();
 }
 
-/// Planes of a shot whose pixels belong to the segments that `segment_of` tells by their position.
-Segmentation planes_of(Shot const& shot,
-                       std::function<std::int32_t(Eigen::Vector3d const&)> const& segment_of,
-                       PlanesConfig const& config = small_planes()) {
+/// A shot whose pixels belong to the segments that `segment_of` tells by their position.
+Segmentation segmented(Shot const& shot,
+                       std::function<std::int32_t(Eigen::Vector3d const&)> const& segment_of) {
   Segmentation segmentation = shot.unassigned();
   Grid<std::int32_t>& labels = segmentation.segments.labels;
   labels = Grid<std::int32_t>(shot.frame.cloud_camera.width(), shot.frame.cloud_camera.height());
@@ -38,7 +37,13 @@ Segmentation planes_of(Shot const& shot,
       ++segmentation.segments.pixel_counts[static_cast<std::size_t>(labels[i] - 1)];
     }
   }
-  return extract_planes(shot.frame, shot.normals, segmentation, config);
+  return segmentation;
+}
+
+Segmentation planes_of(Shot const& shot,
+                       std::function<std::int32_t(Eigen::Vector3d const&)> const& segment_of,
+                       PlanesConfig const& config = small_planes()) {
+  return extract_planes(shot.frame, shot.normals, segmented(shot, segment_of), config);
 }
 
 bool is_on_floor(Eigen::Vector3d const& p) {
@@ -163,6 +168,20 @@ TEST(PlanesOfSegments, NoiseMakesNoHolesInAWall) {
   Segmentation const result = planes_of(shot, [](Eigen::Vector3d const&) { return 1; });
   EXPECT_EQ(result.walls.size(), 1U);
   EXPECT_EQ(std::ranges::count(result.labels, kUnassigned), 0);
+}
+
+TEST(PlanesOfSegments, WhatHoldsHardlyAnythingOfItsSegmentsIsNoWall) {
+  // A strip of wall above a ground that nothing says is the floor.
+  Shot const shot =
+      shot_of(WorldScene().with_floor().with_wall(6.0), camera_looking_along_y(1.3, 0.5));
+  auto const walls_of = [&](std::int32_t segment_of_wall) {
+    Segmentation before = segmented(
+        shot, [&](Eigen::Vector3d const& p) { return is_on_floor(p) ? 1 : segment_of_wall; });
+    before.floor_at_zero = false;
+    return extract_planes(shot.frame, shot.normals, before, small_planes()).walls.size();
+  };
+  EXPECT_EQ(walls_of(2), 1U);
+  EXPECT_EQ(walls_of(1), 0U);
 }
 
 TEST(PlanesOfSegments, ObservationsCountWhatTheyHaveInTheEnd) {

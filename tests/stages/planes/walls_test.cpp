@@ -52,6 +52,12 @@ TEST(Walls, AreNotWhatEndsOnBothSides) {
   EXPECT_FALSE(is_wall_at_two_metres(far_wall().with_box({-0.6, 2.0, 0.0}, {0.6, 2.5, 2.6})));
 }
 
+TEST(Walls, AreNotPillarsInOnePlane) {
+  EXPECT_FALSE(is_wall_at_two_metres(far_wall()
+                                         .with_box({-2.0, 2.0, 0.0}, {-0.9, 2.3, 2.6})
+                                         .with_box({0.9, 2.0, 0.0}, {2.0, 2.3, 2.6})));
+}
+
 TEST(Walls, AreNotWhatStandsBeforeAWall) {
   WorldScene scene = WorldScene().with_floor().with_wall(2.6);
   EXPECT_FALSE(is_wall_at_two_metres(scene.with_box({-3.0, 2.0, 0.0}, {0.3, 2.6, 2.6})));
