@@ -89,7 +89,7 @@ SegmentsHeld segments_held(Segmentation const& segmentation,
 /// Of the segments that floor and walls hold most of, the rest to the nearest.
 void complete_segments(PlaneView const& view, std::vector<FoundSurface> const& found,
                        Segmentation& segmentation) {
-  if (segmentation.segments.labels.empty()) {
+  if (found.empty() || segmentation.segments.labels.empty()) {
     return;
   }
   SegmentsHeld const held = segments_held(segmentation, found);

@@ -39,7 +39,7 @@ std::optional<PixelPlane> RemainingPoints::take_largest(std::uint32_t seed) {
   if (!found) {
     return std::nullopt;
   }
-  if (!eligible_.empty() && is_upright(found->plane)) {
+  if (!eligible_.empty() && may_be_wall(*found)) {
     found = fitted_to_segments(*std::move(found));
   }
   CountedPixels inliers =
@@ -52,9 +52,12 @@ std::optional<PixelPlane> RemainingPoints::take_largest(std::uint32_t seed) {
   return oriented(found->plane, std::move(inliers));
 }
 
-bool RemainingPoints::is_upright(Plane const& camera) const {
-  Eigen::Vector3d const normal_world = view_.T_world_camera.rotation() * camera.normal;
-  return std::abs(normal_world.z()) < view_.config.wall_max_normal_z;
+bool RemainingPoints::may_be_wall(FoundPlane const& found) const {
+  Eigen::Vector3d const normal_world = view_.T_world_camera.rotation() * found.plane.normal;
+  double const pixels = static_cast<double>(found.inlier_count) *
+                        static_cast<double>(pixels_.count) / static_cast<double>(sample_.size());
+  return std::abs(normal_world.z()) < view_.config.wall_max_normal_z &&
+         pixels >= view_.config.wall_min_pixels;
 }
 
 FoundPlane RemainingPoints::fitted_to_segments(FoundPlane found) const {

@@ -34,7 +34,8 @@ private:
     return static_cast<std::size_t>(segments_.labels[pixel]);
   }
   void refresh_sample();
-  [[nodiscard]] bool is_upright(Plane const& camera) const;
+  /// By its direction and what the sample says of its size.
+  [[nodiscard]] bool may_be_wall(FoundPlane const& found) const;
   /// Fitted to the segment that has most of its points in it, and to those that are coplanar with
   /// that one: a plane laid through a wall and the door before it, between both, turns to one.
   [[nodiscard]] FoundPlane fitted_to_segments(FoundPlane found) const;
