@@ -53,6 +53,17 @@ std::optional<Extent> extent_along(WallSummary const& believed, TrueWall const& 
   return Extent{std::min(a_m, b_m), std::max(a_m, b_m)};
 }
 
+/// The same along any of a wall's faces.
+std::optional<Extent> extent_along(WallSummary const& believed,
+                                   std::vector<TrueWall> const& faces) {
+  for (TrueWall const& face : faces) {
+    if (std::optional<Extent> const extent = extent_along(believed, face)) {
+      return extent;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void WallScorer::see(FrameTruth const& truth, LabelMap const& true_labels,
@@ -80,13 +91,19 @@ void WallScorer::see(FrameTruth const& truth, LabelMap const& true_labels,
     if (!along_m) {
       continue;
     }
-    auto const [it, is_new] = seen_.try_emplace(found->second->id, Seen{*along_m, *along_m});
+    auto const [it, is_new] =
+        seen_.try_emplace(found->second->id, Seen{*along_m, *along_m, false, {}});
     it->second.low_m = std::min(it->second.low_m, *along_m);
     it->second.high_m = std::max(it->second.high_m, *along_m);
     ++pixels[true_labels[i]];
   }
   for (auto const& [label, count] : pixels) {
-    Seen& seen = seen_[walls.at(label)->id];
+    TrueWall const& face = *walls.at(label);
+    Seen& seen = seen_[face.id];
+    if (std::none_of(seen.faces.begin(), seen.faces.end(),
+                     [&](TrueWall const& known) { return known.normal.dot(face.normal) > 0.0; })) {
+      seen.faces.push_back(face);
+    }
     seen.enough = seen.enough || count * 100 >= true_labels.size();
   }
 }
@@ -96,8 +113,11 @@ void WallScorer::add(BeliefSummary const& belief, FrameTruth const& truth) {
   for (std::size_t b = 0; b < belief.walls.size(); ++b) {
     for (std::size_t t = 0; t < truth.walls.size(); ++t) {
       auto const seen = seen_.find(truth.walls[t].id);
-      auto const extent = extent_along(belief.walls[b], truth.walls[t]);
-      if (seen == seen_.end() || !extent) {
+      if (seen == seen_.end()) {
+        continue;
+      }
+      auto const extent = extent_along(belief.walls[b], seen->second.faces);
+      if (!extent) {
         continue;
       }
       double const common_m = std::min(extent->high_m, seen->second.high_m) -
@@ -117,7 +137,7 @@ void WallScorer::add(BeliefSummary const& belief, FrameTruth const& truth) {
     right[b] = true;
     found[t] = true;
     Seen const& seen = seen_.at(truth.walls[t].id);
-    Extent const extent = *extent_along(belief.walls[b], truth.walls[t]);
+    Extent const extent = *extent_along(belief.walls[b], seen.faces);
     endpoint_m_.add(std::abs(extent.low_m - seen.low_m));
     endpoint_m_.add(std::abs(extent.high_m - seen.high_m));
   }

@@ -47,6 +47,21 @@ TEST(WallScorer, OffBesideOrTiltedIsNoSuchWall) {
   EXPECT_FALSE(scores_with({}).precision);
 }
 
+TEST(WallScorer, AWallIsRightWhereItWasSeenThoughTheCameraIsBehindItNow) {
+  RunFrame frame = perfect_run(1).front();
+  frame.belief.walls = {wall({4, -3.9}, {4, 3.9})};
+  WallScorer scorer;
+  scorer.see(frame.truth, frame.true_labels, kRoomCamera);
+  FrameTruth behind = frame.truth;
+  TrueWall& other_face = behind.walls.front();
+  other_face.segment_start_m.x() += 0.12;
+  other_face.segment_end_m.x() += 0.12;
+  other_face.normal = -other_face.normal;
+  scorer.add(frame.belief, behind);
+  EXPECT_EQ(scorer.scores().precision, 1.0);
+  EXPECT_EQ(scorer.scores().recall, 1.0);
+}
+
 TEST(WallScorer, AWallThatHardlyShowsIsNotToBeFound) {
   RunFrame frame = perfect_run(1).front();
   frame.belief.walls.clear();

@@ -109,24 +109,22 @@ std::size_t mark_inliers(FloatPlane const& plane, Words const& words, std::uint6
   return count;
 }
 
-SideCounts count_clear(FloatPlane const& plane, Words const& words) {
+std::size_t mark_behind(FloatPlane const& plane, Words const& words, std::uint64_t* behind) {
   D const d;
-  SideCounts counts;
+  std::size_t count = 0;
   for (std::size_t w = 0; w < words.count; ++w) {
-    std::uint64_t front = 0;
-    std::uint64_t back = 0;
+    std::uint64_t bits = 0;
     for (std::size_t lane = 0; words.asked[w] != 0 && lane < PixelSet::kWordBits;
          lane += hn::Lanes(d)) {
       std::size_t const i = w * PixelSet::kWordBits + lane;
       V const limit_m = tolerance_m(plane.tolerance, hn::LoadU(d, words.point[2] + i));
       V const distance_m = hn::Sub(dot(plane, words.point, i), hn::Set(d, plane.offset_m));
-      front |= bits_of(hn::Gt(distance_m, limit_m)) << lane;
-      back |= bits_of(hn::Lt(distance_m, hn::Neg(limit_m))) << lane;
+      bits |= bits_of(hn::Lt(distance_m, hn::Neg(limit_m))) << lane;
     }
-    counts.front += static_cast<std::size_t>(std::popcount(front & words.asked[w]));
-    counts.back += static_cast<std::size_t>(std::popcount(back & words.asked[w]));
+    behind[w] = bits & words.asked[w];
+    count += static_cast<std::size_t>(std::popcount(behind[w]));
   }
-  return counts;
+  return count;
 }
 
 }  // namespace credo::planes::HWY_NAMESPACE
@@ -137,7 +135,7 @@ namespace credo {
 namespace planes {
 
 HWY_EXPORT(mark_inliers);
-HWY_EXPORT(count_clear);
+HWY_EXPORT(mark_behind);
 
 namespace {
 
@@ -201,13 +199,17 @@ CountedPixels plane_inliers(Plane const& plane_camera, OrganizedCloud const& clo
   return inliers;
 }
 
-SideCounts count_sides(Plane const& plane_camera, OrganizedCloud const& cloud,
-                       PixelSet const& among, PlaneTolerance const& tolerance) {
+CountedPixels pixels_behind(Plane const& plane_camera, OrganizedCloud const& cloud,
+                            PixelSet const& among, PlaneTolerance const& tolerance) {
   planes::FloatPlane const plane = planes::float_plane(plane_camera, tolerance);
   planes::WordsOf words(cloud, cloud, among);
-  SideCounts const whole = HWY_DYNAMIC_DISPATCH(planes::count_clear)(plane, words.whole());
-  SideCounts const last = HWY_DYNAMIC_DISPATCH(planes::count_clear)(plane, words.last());
-  return {whole.front + last.front, whole.back + last.back};
+  CountedPixels behind{PixelSet(cloud.size()), 0};
+  std::uint64_t* const bits = behind.pixels.words().data();
+  planes::Words const whole = words.whole();
+  behind.count = HWY_DYNAMIC_DISPATCH(planes::mark_behind)(plane, whole, bits);
+  behind.count +=
+      HWY_DYNAMIC_DISPATCH(planes::mark_behind)(plane, words.last(), bits + whole.count);
+  return behind;
 }
 
 }  // namespace credo

@@ -39,13 +39,9 @@ struct PlaneTolerance {
                                           NormalMap const& normals, PixelSet const& among,
                                           PlaneTolerance const& tolerance);
 
-/// How many of the pixels `among` lie clear of the plane, by their tolerance, on its sides.
-struct SideCounts {
-  /// Where the normal points.
-  std::size_t front = 0;
-  std::size_t back = 0;
-};
-[[nodiscard]] SideCounts count_sides(Plane const& plane_camera, OrganizedCloud const& cloud,
-                                     PixelSet const& among, PlaneTolerance const& tolerance);
+/// Those of the pixels `among` that lie clear of the plane, by their tolerance, on the side that
+/// its normal does not point to.
+[[nodiscard]] CountedPixels pixels_behind(Plane const& plane_camera, OrganizedCloud const& cloud,
+                                          PixelSet const& among, PlaneTolerance const& tolerance);
 
 }  // namespace credo

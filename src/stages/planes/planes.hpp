@@ -44,7 +44,8 @@ struct PlanesConfig {
   /// ... |n_x| or |n_y| above this (T: 0.5) ...
   double wall_min_normal_xy = 0.5;
   /// ... with nothing beyond it: on one of its sides, whichever (T), or on that which faces away
-  /// from the camera; before the front edge of a table, too, there may be nothing ...
+  /// from the camera; before the front edge of a table, too, there may be nothing. What is seen
+  /// there through a doorway, or round the corner where a wall ends, does not count ...
   WallBeyond wall_beyond = WallBeyond::kBehind;
   /// ... but at most so many points (T: 50), or so large a share of the plane's own
   /// pixels.
@@ -64,7 +65,8 @@ FieldList fields(PlanesConfig& config);
 ///
 /// Where there are segments, floor and walls are made of them: one that a plane holds most of
 /// belongs to it as far as it keeps near, and of one that it holds little of it takes nothing. So
-/// the foot of what stands on the floor is not floor, and a carpet's rough edge is.
+/// the foot of what stands on the floor is not floor, and a carpet's rough edge is. Walls are
+/// fitted to their largest segment and to those coplanar with it.
 Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
                             PlanesConfig const& config);
 

@@ -64,24 +64,21 @@ void expect_equals_literal(Points const& points, PlaneTolerance const& tolerance
   Literal const literal{some_plane(), tolerance};
   CountedPixels const inliers =
       plane_inliers(literal.plane, points.cloud, points.normals, points.asked, tolerance);
-  SideCounts const sides = count_sides(literal.plane, points.cloud, points.asked, tolerance);
+  CountedPixels const behind = pixels_behind(literal.plane, points.cloud, points.asked, tolerance);
   std::size_t count = 0;
-  SideCounts expected;
+  std::size_t count_behind = 0;
   for (std::size_t i = 0; i < points.cloud.size(); ++i) {
-    bool const belongs =
-        points.asked.contains(i) && literal.belongs(points.cloud.at(i), points.normals.at(i));
+    bool const asked = points.asked.contains(i);
+    bool const belongs = asked && literal.belongs(points.cloud.at(i), points.normals.at(i));
     ASSERT_EQ(inliers.pixels.contains(i), belongs) << "pixel " << i;
     count += belongs ? 1 : 0;
-    if (points.asked.contains(i)) {
-      float const distance_m = literal.distance_m(points.cloud.at(i));
-      float const limit_m = tolerance.distance_m(points.cloud.z[i]);
-      expected.front += distance_m > limit_m ? 1 : 0;
-      expected.back += distance_m < -limit_m ? 1 : 0;
-    }
+    bool const is_behind =
+        asked && literal.distance_m(points.cloud.at(i)) < -tolerance.distance_m(points.cloud.z[i]);
+    ASSERT_EQ(behind.pixels.contains(i), is_behind) << "pixel " << i;
+    count_behind += is_behind ? 1 : 0;
   }
   EXPECT_EQ(inliers.count, count);
-  EXPECT_EQ(sides.front, expected.front);
-  EXPECT_EQ(sides.back, expected.back);
+  EXPECT_EQ(behind.count, count_behind);
 }
 
 std::vector<PlaneTolerance> tolerances() {
@@ -115,7 +112,7 @@ TEST(PlanePixels, OfAnEmptyImageAreNone) {
   CountedPixels const inliers =
       plane_inliers(some_plane(), cloud, NormalMap(), PixelSet(0), {0.05F, 0.0F, 0.0F});
   EXPECT_EQ(inliers.count, 0U);
-  EXPECT_EQ(count_sides(some_plane(), cloud, PixelSet(0), {0.05F, 0.0F, 0.0F}).front, 0U);
+  EXPECT_EQ(pixels_behind(some_plane(), cloud, PixelSet(0), {0.05F, 0.0F, 0.0F}).count, 0U);
 }
 
 TEST(PlaneTolerance, FollowsTheNoiseWhereThatIsMore) {

@@ -1,0 +1,140 @@
+#include "stages/planes/holes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "core/runs.hpp"
+#include "geometry/segment_shares.hpp"
+#include "stages/planes/is_floor.hpp"
+#include "stages/planes/labelled_pixels.hpp"
+
+namespace credo {
+namespace {
+
+/// Of some pixels, those in segments that nothing has, or that these are most of; of all without
+/// segments.
+CountedPixels whole_segments(CountedPixels pixels, CountedPixels const& unassigned,
+                             SegmentPieces const& pieces) {
+  if (pieces.empty()) {
+    return pixels;
+  }
+  std::vector<std::uint32_t> const all = pieces.counts(unassigned.pixels);
+  std::vector<std::uint32_t> const some = pieces.counts(pixels.pixels);
+  return pieces.where(pixels.pixels, [&](std::size_t segment) {
+    return segment == 0 || some[segment] >= kMostlyShare * all[segment];
+  });
+}
+
+/// What floor and walls have of the segments.
+struct SegmentsHeld {
+  Grid<std::int32_t> const* labels;
+  std::size_t surfaces;
+  /// Of each segment: pixels without known objects', and those that any surface has.
+  std::vector<std::uint32_t> all, explained;
+  /// Of each segment, surface after surface: pixels that it has.
+  std::vector<std::uint32_t> held;
+
+  [[nodiscard]] std::size_t segment_of(std::size_t pixel) const {
+    return static_cast<std::size_t>((*labels)[pixel]);
+  }
+  [[nodiscard]] bool mostly(std::size_t pixel) const {
+    std::size_t const segment = segment_of(pixel);
+    return segment != 0 && explained[segment] >= kMostlyShare * all[segment];
+  }
+  [[nodiscard]] bool hardly(std::size_t pixel, std::size_t surface) const {
+    std::size_t const segment = segment_of(pixel);
+    return held[segment * surfaces + surface] <= kHardlyShare * all[segment];
+  }
+};
+
+SegmentsHeld segments_held(Segmentation const& segmentation,
+                           std::vector<FoundSurface> const& found) {
+  SegmentsHeld result{&segmentation.segments.labels, found.size(), {}, {}, {}};
+  result.all.assign(segmentation.segments.pixel_counts.size() + 1, 0);
+  result.explained.assign(result.all.size(), 0);
+  result.held.assign(result.all.size() * found.size(), 0);
+  // A later plane may be more of the same floor: one counts for both.
+  std::vector<std::size_t> surface_of(kFirstObject, found.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    surface_of[found[k].label] = k;
+  }
+  for_each_run(std::span<LabelCode const>(segmentation.labels),
+               std::span<std::int32_t const>(segmentation.segments.labels),
+               [&](std::size_t begin, std::size_t end) {
+                 LabelCode const label = segmentation.labels[begin];
+                 if (label == kNoDepth || label >= kFirstObject) {
+                   return;
+                 }
+                 auto const pixels = static_cast<std::uint32_t>(end - begin);
+                 std::size_t const segment = result.segment_of(begin);
+                 result.all[segment] += pixels;
+                 if (surface_of[label] < found.size()) {
+                   result.explained[segment] += pixels;
+                   result.held[segment * found.size() + surface_of[label]] += pixels;
+                 }
+               });
+  return result;
+}
+
+/// Of the segments that floor and walls hold most of, the rest to the nearest.
+void complete_segments(PlaneView const& view, std::vector<FoundSurface> const& found,
+                       Segmentation& segmentation) {
+  if (found.empty() || segmentation.segments.labels.empty()) {
+    return;
+  }
+  SegmentsHeld const held = segments_held(segmentation, found);
+  PlaneTolerance const near = near_tolerance(view.tolerance, 0.0F);
+  Heights const height_m(view);
+  double const max_height_m = view.config.floor_max_height_m;
+  CountedPixels const unassigned =
+      unassigned_pixels(segmentation.labels, segmentation.segments, view.pieces);
+  unassigned.pixels.for_each([&](std::size_t i) {
+    if (!held.mostly(i)) {
+      return;
+    }
+    bool const too_high = max_height_m > 0.0 && std::abs(height_m(i)) > max_height_m;
+    Eigen::Vector3d const p_camera = view.cloud.at(i).cast<double>();
+    double nearest_m = near.distance_m(view.cloud.z[i]);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      double const distance_m = std::abs(found[k].camera.signed_distance_m(p_camera));
+      bool const allowed = !held.hardly(i, k) && !(too_high && found[k].label == kFloor);
+      if (allowed && distance_m <= nearest_m) {
+        nearest_m = distance_m;
+        segmentation.labels[i] = found[k].label;
+      }
+    }
+  });
+}
+
+/// Pixels that all but lie in a plane to the first such.
+void complete_planes(PlaneView const& view, std::vector<FoundSurface> const& found,
+                     Segmentation& segmentation) {
+  constexpr float kAllBut = 0.5F;
+  PlaneTolerance const close{kAllBut * view.tolerance.fixed_m,
+                             kAllBut * view.tolerance.noise_sigmas, 0.0F};
+  CountedPixels unassigned =
+      unassigned_pixels(segmentation.labels, segmentation.segments, view.pieces);
+  for (auto const& [label, plane_camera] : found) {
+    CountedPixels joining = inliers_among(view, plane_camera, unassigned.pixels, close);
+    joining = whole_segments(std::move(joining), unassigned, view.pieces);
+    if (label == kFloor) {
+      joining = low_pixels(view, std::move(joining));
+    }
+    joining.pixels.for_each([&, code = label](std::size_t i) { segmentation.labels[i] = code; });
+    unassigned.remove(joining);
+  }
+}
+
+}  // namespace
+
+void fill_holes(PlaneView const& view, std::vector<FoundSurface> const& found,
+                Segmentation& segmentation) {
+  complete_segments(view, found, segmentation);
+  complete_planes(view, found, segmentation);
+}
+
+}  // namespace credo

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "core/cloud.hpp"
+#include "core/plane.hpp"
+#include "core/se3.hpp"
+#include "stages/planes/pixel_boxes.hpp"
+#include "stages/planes/pixel_set.hpp"
+#include "stages/planes/plane_pixels.hpp"
+#include "stages/planes/planes.hpp"
+#include "stages/planes/segment_pieces.hpp"
+
+namespace credo {
+
+/// What every step looks at. Planes are searched for where the depths are: in the camera frame.
+struct PlaneView {
+  OrganizedCloud const& cloud;
+  NormalMap const& normals;
+  Se3 const& T_world_camera;
+  PlanesConfig const& config;
+  PlaneTolerance tolerance;
+  PixelBoxes boxes;
+  SegmentPieces pieces;
+  /// All pixels with depth.
+  CountedPixels valid;
+};
+
+/// Those of the pixels that belong to a plane.
+[[nodiscard]] inline CountedPixels inliers_among(PlaneView const& view, Plane const& plane_camera,
+                                                 PixelSet const& pixels,
+                                                 PlaneTolerance const& tolerance) {
+  return plane_inliers(plane_camera, view.cloud, view.normals,
+                       view.boxes.near(plane_camera, pixels, tolerance), tolerance);
+}
+
+/// A plane with its pixels.
+struct PixelPlane {
+  Plane camera;
+  /// The same plane in the world frame.
+  Plane world;
+  CountedPixels inliers;
+  /// More pixels of its segments, not so exactly in the plane.
+  CountedPixels joined{PixelSet(0), 0};
+};
+
+/// What is near enough to a plane for a pixel whose segment the plane holds anyway: three times the
+/// distance, but noise alone takes few points beyond six of its sigmas.
+[[nodiscard]] inline PlaneTolerance near_tolerance(PlaneTolerance const& tolerance,
+                                                   float min_cosine) {
+  return {3.0F * tolerance.fixed_m, 1.5F * tolerance.noise_sigmas, min_cosine};
+}
+
+/// Height above z = 0 of a pixel.
+class Heights {
+public:
+  explicit Heights(PlaneView const& view)
+      : cloud_(view.cloud),
+        up_(view.T_world_camera.rotation().toRotationMatrix().row(2).cast<float>()),
+        camera_m_(static_cast<float>(view.T_world_camera.translation().z())) {}
+
+  [[nodiscard]] float operator()(std::size_t pixel) const {
+    return up_.dot(cloud_.at(pixel)) + camera_m_;
+  }
+
+private:
+  OrganizedCloud const& cloud_;
+  Eigen::Vector3f up_;
+  float camera_m_;
+};
+
+}  // namespace credo

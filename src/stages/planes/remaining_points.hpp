@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/segments.hpp"
+#include "geometry/plane_search.hpp"
+#include "stages/planes/plane_view.hpp"
+
+namespace credo {
+
+/// What no plane has taken yet (thesis algorithm 2). Planes are found and fitted on a sample of it,
+/// then every pixel is asked.
+class RemainingPoints {
+public:
+  RemainingPoints(PlaneView const& view, Segments const& segments, CountedPixels pixels);
+
+  /// Takes the largest plane out; none once it has fewer pixels than a plane must have.
+  std::optional<PixelPlane> take_largest(std::uint32_t seed);
+
+  /// Fits what a floor or wall has taken to the segments: all of those that it holds most of, as
+  /// far as they keep near, and nothing of those that it holds little of.
+  void settle(PixelPlane& plane);
+
+private:
+  /// How much of a segment a plane holds. The pixels that are on none are kPartly.
+  enum class Held : std::uint8_t { kHardly, kPartly, kMostly };
+  /// Noise turns normals before it moves points: once a plane holds some of a segment, all of its
+  /// pixels that lie in the plane speak for it, whatever their normals.
+  [[nodiscard]] std::vector<Held> held_of_segments(PixelPlane const& plane) const;
+  [[nodiscard]] std::size_t segment_of(std::size_t pixel) const {
+    return static_cast<std::size_t>(segments_.labels[pixel]);
+  }
+  void refresh_sample();
+  /// By its direction and what the sample says of its size.
+  [[nodiscard]] bool may_be_wall(FoundPlane const& found) const;
+  /// Fitted to the segment that has most of its points in it, and to those that are coplanar with
+  /// that one: a plane laid through a wall and the door before it, between both, turns to one.
+  [[nodiscard]] FoundPlane fitted_to_segments(FoundPlane found) const;
+  /// Of each segment, the mean signed distance of its flagged sample points, in tolerances.
+  [[nodiscard]] std::vector<double> mean_distances(Plane const& plane,
+                                                   std::vector<std::uint8_t> const& flags) const;
+  /// A flag for each point of the sample: whether `test(point, segment)`.
+  template <typename Test>
+  [[nodiscard]] std::vector<std::uint8_t> flags_where(Test const& test) const {
+    std::vector<std::uint8_t> flags(sample_.size());
+    for (std::size_t i = 0; i < flags.size(); ++i) {
+      flags[i] = test(i, segment_of(sample_.source[i])) ? 1 : 0;
+    }
+    return flags;
+  }
+  [[nodiscard]] PixelPlane oriented(Plane const& camera, CountedPixels inliers) const;
+
+  PlaneView const& view_;
+  Segments const& segments_;
+  CountedPixels pixels_;
+  /// Of each segment, how many pixels neither floor nor wall nor object has taken. Empty without
+  /// segments.
+  std::vector<std::uint32_t> eligible_;
+  PlaneSearchPoints sample_;
+};
+
+}  // namespace credo
