@@ -30,6 +30,9 @@ struct Owners {
     }
     return sum;
   }
+  [[nodiscard]] double share() const {
+    return static_cast<double>(held_px()) / static_cast<double>(pixels);
+  }
   /// Of equals the lower label.
   [[nodiscard]] LabelCode largest() const {
     return std::ranges::max_element(objects, {}, [](auto const& one) { return one.second; })->first;
@@ -60,22 +63,21 @@ std::vector<Owners> owners_of(Segmentation const& segmentation) {
   return owners;
 }
 
-/// A thing that lies on a surface of which an object holds most is in the reach of that object's
-/// pose, but is none of it.
+/// A thing that lies on a surface of an object is in the reach of that object's pose, but is none
+/// of it.
 bool is_anothers(std::size_t segment, std::vector<Owners> const& owners, Segments const& segments) {
   auto const base =
       static_cast<std::size_t>(segments.lies_on.empty() ? 0 : segments.lies_on[segment - 1]);
-  return base != 0 && !owners[base].objects.empty() &&
+  return base != 0 && owners[base].share() >= kObjectsShare &&
          owners[base].largest() == owners[segment].largest();
 }
 
 /// What becomes of a pixel of a segment.
 LabelCode settled(LabelCode label, Owners const& owner) {
-  double const share = static_cast<double>(owner.held_px()) / static_cast<double>(owner.pixels);
-  if (label == kUnassigned && share >= kObjectsShare) {
+  if (label == kUnassigned && owner.share() >= kObjectsShare) {
     return owner.largest();
   }
-  return is_object(label) && share <= kHardlyShare ? kUnassigned : label;
+  return is_object(label) && owner.share() <= kHardlyShare ? kUnassigned : label;
 }
 
 }  // namespace

@@ -26,6 +26,9 @@ constexpr double kRim = 0.15;
 constexpr double kHardly = 0.1;
 /// What sticks out may be behind what it sticks out of by so much.
 constexpr double kPartlyHidden = 0.25;
+/// Of the pairs with what it sticks out of, those that touch: what is only before it touches it in
+/// places.
+constexpr double kContact = 0.6;
 /// A vessel's inside is at most so many times what is seen of its outside.
 constexpr double kLargestInside = 4.0;
 /// What sticks out is at most this part of what it sticks out of.
@@ -188,6 +191,7 @@ private:
     }
     double const pairs = with_holder.pairs() + with_others.pairs();
     bool const sticks_out = with_others.before > kRim * pairs &&
+                            with_holder.touching >= kContact * with_holder.pairs() &&
                             with_holder.behind <= kPartlyHidden * pairs &&
                             with_others.behind <= kHardly * pairs;
     if (holder == 0 || !sticks_out || is_cut_off(part.box) ||

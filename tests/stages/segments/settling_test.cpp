@@ -69,6 +69,13 @@ TEST(SettleObjects, WhatLiesOnASurfaceOfAnObjectIsNoneOfIt) {
   // One that was told of keeps it.
   before.labels[8] = before.labels[9] = kBox;
   EXPECT_EQ(settle_objects(before).labels, before.labels);
+  // So does one whose region has spilt over what it lies on.
+  Segmentation spilt = row_of(pixels(0, 3, 7));
+  spilt.segments.labels[0] = spilt.segments.labels[1] = 2;
+  spilt.segments.pixel_counts = {8, 2};
+  spilt.segments.lies_on = {0, 1};
+  EXPECT_EQ(settle_objects(spilt).labels[0], kBox);
+  EXPECT_EQ(settle_objects(spilt).labels[2], kUnassigned);
 }
 
 TEST(SettleObjects, WhatBelongsToNoSegmentAndWhatHasNoDepthStay) {
