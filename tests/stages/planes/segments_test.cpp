@@ -91,6 +91,25 @@ TEST(PlanesOfSegments, WhatIsFloorByItsSegmentIsFloorAlsoWhereItIsRough) {
             result.floor->pixel_count);
 }
 
+TEST(PlanesOfSegments, WhatLiesOnTheFloorIsNotFloor) {
+  // A centimetre high: well within the tolerance.
+  Shot const shot = shot_of(WorldScene().with_floor().with_box({-0.3, 0.9, 0.0}, {0.3, 1.4, 0.01}),
+                            camera_looking_along_y(1.0, 0.8));
+  auto const segment_of = [](Eigen::Vector3d const& p) { return is_on_floor(p) ? 1 : 2; };
+  Segmentation segmentation = segmented(shot, segment_of);
+  for (bool const lies_there : {false, true}) {
+    segmentation.segments.lies_on.assign(segmentation.segments.pixel_counts.size(), 0);
+    segmentation.segments.lies_on[1] = lies_there ? 1 : 0;
+    Segmentation const result =
+        extract_planes(shot.frame, shot.normals, segmentation, small_planes());
+    for (std::size_t i = 0; i < result.labels.size(); ++i) {
+      if (segmentation.segments.labels[i] == 2) {
+        ASSERT_EQ(result.labels[i], lies_there ? kUnassigned : kFloor);
+      }
+    }
+  }
+}
+
 TEST(PlanesOfSegments, WhatJoinsAPlaneIsNotFoundAgainInTheNext) {
   // A step of 3 cm in the floor: beyond the tolerance, large enough for a plane of its own.
   Shot const shot = shot_of(WorldScene().with_floor().with_box({-0.3, 0.9, 0.0}, {0.3, 1.4, 0.03}),
