@@ -116,7 +116,9 @@ FieldList fields(StuffFusionConfig& config) {
        "m",
        "ICP has converged when it moves no point by more"},
       choice("score", config.score, {"mean", "sum"},
-             "what decides between clusters: mean or sum of the squared distances after ICP"),
+             "what decides between clusters: mean of the squared distances after ICP, both ways "
+             "together, "
+             "best pair first; or their sum, each the other's best"),
       {"max_rms_m",
        &config.max_rms_m,
        {0, 10},

@@ -62,11 +62,13 @@ struct WallFusionConfig {
 };
 FieldList fields(WallFusionConfig& config);
 
-/// What decides which cluster fits another best.
+/// What decides which cluster of a frame is which of the belief.
 enum class StuffScore : std::uint8_t {
-  /// The mean of the squared distances, so that large clusters are not at a disadvantage.
+  /// The mean of the squared distances, so that large clusters are not at a disadvantage, from each
+  /// to the other together; the best pair first, then the best of what is left. A fragment lies on
+  /// the whole as well as the whole does, but the whole does not lie on the fragment.
   kMean,
-  /// Their sum (thesis 4.3).
+  /// The sum of the squared distances; those that are each the other's best (thesis 4.3).
   kSum,
 };
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "geometry/icp.hpp"
 #include "geometry/thinning.hpp"
@@ -95,6 +97,54 @@ void align_pair(Pair& pair, Sample const& known, Sample const& seen, bool known_
   }
 }
 
+using Matches = std::vector<std::optional<std::size_t>>;
+
+/// Thesis 4.3: those that are each the other's best.
+Matches best_of_each_other(std::vector<Pair> const& pairs, std::size_t known_count,
+                           std::span<StuffCluster const> seen) {
+  std::vector<Pair const*> best_for_known(known_count, nullptr);
+  std::vector<Pair const*> best_for_seen(seen.size(), nullptr);
+  for (Pair const& pair : pairs) {
+    Pair const*& of_known = best_for_known[pair.known];
+    if (of_known == nullptr || *pair.seen_to_known < *of_known->seen_to_known ||
+        (*pair.seen_to_known == *of_known->seen_to_known &&
+         seen[pair.seen].label < seen[of_known->seen].label)) {
+      of_known = &pair;
+    }
+    // Pairs come by ascending known cluster: of equals the first stays.
+    Pair const*& of_seen = best_for_seen[pair.seen];
+    if (of_seen == nullptr || *pair.known_to_seen < *of_seen->known_to_seen) {
+      of_seen = &pair;
+    }
+  }
+  Matches matches(known_count);
+  for (std::size_t i = 0; i < known_count; ++i) {
+    if (best_for_known[i] != nullptr &&
+        best_for_seen[best_for_known[i]->seen] == best_for_known[i]) {
+      matches[i] = best_for_known[i]->seen;
+    }
+  }
+  return matches;
+}
+
+/// The pairs that fit best, both ways together, before others. A fragment lies on the whole as well
+/// as the whole does, but the whole does not lie on the fragment.
+Matches best_first(std::vector<Pair> pairs, std::size_t known_count,
+                   std::span<StuffCluster const> seen) {
+  std::ranges::sort(pairs, {}, [&](Pair const& pair) {
+    return std::tuple(*pair.seen_to_known + *pair.known_to_seen, pair.known, seen[pair.seen].label);
+  });
+  Matches matches(known_count);
+  std::vector<bool> is_taken(seen.size(), false);
+  for (Pair const& pair : pairs) {
+    if (!matches[pair.known] && !is_taken[pair.seen]) {
+      matches[pair.known] = pair.seen;
+      is_taken[pair.seen] = true;
+    }
+  }
+  return matches;
+}
+
 }  // namespace
 
 std::vector<std::optional<std::size_t>> match_clusters(std::span<StuffCluster const* const> known,
@@ -122,32 +172,9 @@ std::vector<std::optional<std::size_t>> match_clusters(std::span<StuffCluster co
     });
   });
 
-  std::vector<Pair const*> best_for_known(known.size(), nullptr);
-  std::vector<Pair const*> best_for_seen(seen.size(), nullptr);
-  for (Pair const& pair : pairs) {
-    if (!pair.aligned()) {
-      continue;
-    }
-    Pair const*& of_known = best_for_known[pair.known];
-    if (of_known == nullptr || *pair.seen_to_known < *of_known->seen_to_known ||
-        (*pair.seen_to_known == *of_known->seen_to_known &&
-         seen[pair.seen].label < seen[of_known->seen].label)) {
-      of_known = &pair;
-    }
-    // Pairs come by ascending known cluster: of equals the first stays.
-    Pair const*& of_seen = best_for_seen[pair.seen];
-    if (of_seen == nullptr || *pair.known_to_seen < *of_seen->known_to_seen) {
-      of_seen = &pair;
-    }
-  }
-  std::vector<std::optional<std::size_t>> matches(known.size());
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    if (best_for_known[i] != nullptr &&
-        best_for_seen[best_for_known[i]->seen] == best_for_known[i]) {
-      matches[i] = best_for_known[i]->seen;
-    }
-  }
-  return matches;
+  std::erase_if(pairs, [](Pair const& pair) { return !pair.aligned(); });
+  return config.score == StuffScore::kSum ? best_of_each_other(pairs, known.size(), seen)
+                                          : best_first(std::move(pairs), known.size(), seen);
 }
 
 }  // namespace credo
