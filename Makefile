@@ -9,6 +9,9 @@ SANITIZED ?= core config dataset intrinsics trajectory pcd image output mesh det
              planes reachability region_growing segments eval
 # Empty: all of .clang-tidy. CI, which has minutes, narrows it.
 TIDY_CHECKS ?=
+# Of so many last commits the files that they touched; empty: all files.
+TIDY_COMMITS ?=
+TIDIED = $(if $(TIDY_COMMITS),git log -n $(TIDY_COMMITS) --name-only --pretty=format:,git ls-files)
 SOURCES = $(shell git ls-files '*.cpp' '*.hpp')
 
 .PHONY: demo test build deps bench scores docs thesis-results lint sanitize format help
@@ -57,7 +60,10 @@ lint: deps       ## clang-format and clang-tidy, findings are errors
 	clang-format --dry-run --Werror $(SOURCES)
 	cmake --preset $(PRESET) --log-level=WARNING
 	cmake --build --preset $(PRESET) --target credo_dds  # for the headers made of IDL
-	run-clang-tidy -quiet -j2 -checks='$(TIDY_CHECKS)' -p $(BUILD) '/(src|tools)/.*\.cpp$$'
+	@files=$$($(TIDIED) | grep -E '^(src|tools)/.*\.cpp$$' | sort -u | while read -r f; do \
+	  if [ -f "$$f" ]; then echo "/$$f\$$"; fi; done); \
+	echo "clang-tidy of $$(echo $$files | wc -w) files"; \
+	[ -z "$$files" ] || run-clang-tidy -quiet -j2 -checks='$(TIDY_CHECKS)' -p $(BUILD) $$files
 
 sanitize: deps   ## the suites where memory is at stake, under ASan and UBSan
 	cmake --preset sanitize --log-level=WARNING
