@@ -1,10 +1,13 @@
 #include "stages/segments/outlines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <utility>
+
+#include "stages/segments/kernels.hpp"
+#include "stages/segments/row_bits.hpp"
 
 namespace credo::segments {
 namespace {
@@ -21,7 +24,10 @@ public:
       : labels_(segments.labels),
         depth_m_(depth_m),
         link_per_m_(link_per_m),
-        outlines_(segments.pixel_counts.size() + 1) {
+        outlines_(segments.pixel_counts.size() + 1),
+        row_(static_cast<std::size_t>(labels_.width()) + kMargin_px),
+        above_(row_.size()),
+        borders_(labels_.width()) {
     for (std::size_t i = 0; i < segments.pixel_counts.size(); ++i) {
       outlines_[i + 1].pixels = segments.pixel_counts[i];
     }
@@ -29,7 +35,12 @@ public:
 
   std::vector<Outline> outlines() && {
     for (int v = 0; v < labels_.height(); ++v) {
+      std::ranges::copy(labels_.row(v), row_.begin());
       look_along(v);
+      if (v > 0) {
+        look_up(v);
+      }
+      std::swap(row_, above_);
     }
     for (std::size_t i = 1; i < outlines_.size(); ++i) {
       for (auto const& [other, meeting] : outlines_[i].meetings) {
@@ -42,28 +53,54 @@ public:
   }
 
 private:
+  /// What kernels read beyond a row.
+  static constexpr std::size_t kMargin_px = 65;
+  /// Where segments meet, found again without a search: borders go on from row to row.
+  struct Recent {
+    std::int32_t lower = 0;
+    std::int32_t higher = 0;
+    Meeting* meeting = nullptr;
+  };
+  static constexpr std::size_t kRecent = 256;
+
   Outline& outline(std::int32_t label) { return outlines_[static_cast<std::size_t>(label)]; }
 
-  /// The runs of a row, and what is right of and below them.
+  /// Seen from the lower label.
+  Meeting& meeting_of(std::int32_t lower, std::int32_t higher) {
+    auto const place = static_cast<std::size_t>(lower) * 31 + static_cast<std::size_t>(higher);
+    Recent& recent = recent_[place % kRecent];
+    if (recent.lower != lower || recent.higher != higher) {
+      recent = {lower, higher, &outline(lower).meetings[higher]};
+    }
+    return *recent.meeting;
+  }
+
+  /// The runs of a row, and what is between them.
   void look_along(int v) {
-    std::span<std::int32_t const> const row = labels_.row(v);
-    bool const has_below = v + 1 < labels_.height();
-    std::int32_t const* const below = has_below ? labels_.row(v + 1).data() : row.data();
     int const width = labels_.width();
-    for (int u = 0; u < width;) {
-      int const begin = u;
-      std::int32_t const label = row[static_cast<std::size_t>(begin)];
-      for (; u < width && row[static_cast<std::size_t>(u)] == label; ++u) {
-        if (below[u] != label) {
-          look({u, v}, {u, v + 1});
-        }
+    if (width == 0) {
+      return;
+    }
+    different_bits(row_.data(), row_.data() + 1, static_cast<std::size_t>(width - 1),
+                   borders_.data());
+    for (int begin = 0; begin < width;) {
+      // The bits beyond the last pair are 0.
+      int const last = std::min(borders_.next_set(begin), width - 1);
+      if (std::int32_t const label = row_[static_cast<std::size_t>(begin)]; label != 0) {
+        outline(label).box.add({{begin, v}, {last, v}});
       }
-      if (label != 0) {
-        outline(label).box.add({{begin, v}, {u - 1, v}});
+      begin = last + 1;
+      if (begin < width) {
+        look({last, v}, {begin, v});
       }
-      if (u < width) {
-        look({u - 1, v}, {u, v});
-      }
+    }
+  }
+
+  void look_up(int v) {
+    int const width = labels_.width();
+    different_bits(above_.data(), row_.data(), static_cast<std::size_t>(width), borders_.data());
+    for (int u = borders_.next_set(0); u < width; u = borders_.next_set(u + 1)) {
+      look({u, v - 1}, {u, v});
     }
   }
 
@@ -74,17 +111,13 @@ private:
       return;
     }
     float const nearer_per_m = 1.0F / depth_m_[p] - 1.0F / depth_m_[q];
-    Meeting meeting;
+    Meeting& meeting = meeting_of(std::min(a, b), std::max(a, b));
     if (std::abs(nearer_per_m) < link_per_m_) {
-      meeting.touching = 1;
-      meeting.touch = {p, q};
+      ++meeting.touching;
+      meeting.touch.add({p, q});
     } else {
-      (nearer_per_m > 0.0F ? meeting.before : meeting.behind) = 1;
-    }
-    if (a < b) {
-      outline(a).meetings[b].add(meeting);
-    } else {
-      outline(b).meetings[a].add(turned(meeting));
+      bool const is_before = nearer_per_m > 0.0F;
+      ++(is_before == (a < b) ? meeting.before : meeting.behind);
     }
   }
 
@@ -92,6 +125,11 @@ private:
   Grid<float> const& depth_m_;
   float link_per_m_;
   std::vector<Outline> outlines_;
+  std::array<Recent, kRecent> recent_;
+  /// Labels of the row that is looked at, and of the one before.
+  std::vector<std::int32_t> row_;
+  std::vector<std::int32_t> above_;
+  RowBits borders_;
 };
 
 }  // namespace
