@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "core/runs.hpp"
+#include "stages/segments/label_runs.hpp"
 
 namespace credo::segments {
 namespace {
@@ -211,10 +211,12 @@ std::vector<std::optional<FlatSurface>> flat_surfaces(Segments const& segments,
   }
   std::vector<std::size_t> next = every;
   std::vector<std::vector<Pixel>> taken(labels);
+  LabelRuns runs(depth_m.width());
   for (int v = 0; v < depth_m.height(); ++v) {
     std::span<std::int32_t const> const row = segments.labels.row(v);
+    runs.find(row);
     for (std::size_t begin = 0, end = 0; begin < row.size(); begin = end) {
-      end = run_end(row, begin);
+      end = runs.end(begin);
       auto const label = static_cast<std::size_t>(row[begin]);
       if (every[label] == 0) {
         continue;

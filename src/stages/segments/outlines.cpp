@@ -4,9 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
-#include "stages/segments/kernels.hpp"
+#include "stages/segments/label_runs.hpp"
 #include "stages/segments/row_bits.hpp"
 
 namespace credo::segments {
@@ -25,8 +26,7 @@ public:
         depth_m_(depth_m),
         link_per_m_(link_per_m),
         outlines_(segments.pixel_counts.size() + 1),
-        row_(static_cast<std::size_t>(labels_.width()) + kMargin_px),
-        above_(row_.size()),
+        runs_(labels_.width()),
         borders_(labels_.width()) {
     for (std::size_t i = 0; i < segments.pixel_counts.size(); ++i) {
       outlines_[i + 1].pixels = segments.pixel_counts[i];
@@ -35,12 +35,10 @@ public:
 
   std::vector<Outline> outlines() && {
     for (int v = 0; v < labels_.height(); ++v) {
-      std::ranges::copy(labels_.row(v), row_.begin());
       look_along(v);
       if (v > 0) {
         look_up(v);
       }
-      std::swap(row_, above_);
     }
     for (std::size_t i = 1; i < outlines_.size(); ++i) {
       for (auto const& [other, meeting] : outlines_[i].meetings) {
@@ -53,8 +51,6 @@ public:
   }
 
 private:
-  /// What kernels read beyond a row.
-  static constexpr std::size_t kMargin_px = 65;
   /// Where segments meet, found again without a search: borders go on from row to row.
   struct Recent {
     std::int32_t lower = 0;
@@ -77,28 +73,26 @@ private:
 
   /// The runs of a row, and what is between them.
   void look_along(int v) {
-    int const width = labels_.width();
-    if (width == 0) {
-      return;
-    }
-    different_bits(row_.data(), row_.data() + 1, static_cast<std::size_t>(width - 1),
-                   borders_.data());
-    for (int begin = 0; begin < width;) {
-      // The bits beyond the last pair are 0.
-      int const last = std::min(borders_.next_set(begin), width - 1);
-      if (std::int32_t const label = row_[static_cast<std::size_t>(begin)]; label != 0) {
-        outline(label).box.add({{begin, v}, {last, v}});
+    std::span<std::int32_t const> const row = labels_.row(v);
+    runs_.find(row);
+    for (std::size_t begin = 0; begin < row.size();) {
+      auto const first = static_cast<int>(begin);
+      std::int32_t const label = row[begin];
+      begin = runs_.end(begin);
+      auto const next = static_cast<int>(begin);
+      if (label != 0) {
+        outline(label).box.add({{first, v}, {next - 1, v}});
       }
-      begin = last + 1;
-      if (begin < width) {
-        look({last, v}, {begin, v});
+      if (begin < row.size()) {
+        look({next - 1, v}, {next, v});
       }
     }
   }
 
   void look_up(int v) {
     int const width = labels_.width();
-    different_bits(above_.data(), row_.data(), static_cast<std::size_t>(width), borders_.data());
+    border_bits(labels_.row(v - 1).data(), labels_.row(v).data(), static_cast<std::size_t>(width),
+                borders_);
     for (int u = borders_.next_set(0); u < width; u = borders_.next_set(u + 1)) {
       look({u, v - 1}, {u, v});
     }
@@ -126,9 +120,7 @@ private:
   float link_per_m_;
   std::vector<Outline> outlines_;
   std::array<Recent, kRecent> recent_;
-  /// Labels of the row that is looked at, and of the one before.
-  std::vector<std::int32_t> row_;
-  std::vector<std::int32_t> above_;
+  LabelRuns runs_;
   RowBits borders_;
 };
 

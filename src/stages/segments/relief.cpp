@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "core/runs.hpp"
 #include "stages/segments/flat_surface.hpp"
+#include "stages/segments/label_runs.hpp"
 #include "stages/segments/relief_kernels.hpp"
 
 namespace credo::segments {
@@ -46,6 +46,7 @@ public:
         raised_quanta_(config.raised_quanta),
         surfaces_(flat_surfaces(segments, depth_m, config.quantum_per_m,
                                 kSurface_px * focal_px / 525.0 * focal_px / 525.0)),
+        runs_(depth_m.width()),
         run_heights_(static_cast<std::size_t>(depth_m.width()) + 2 * kMargin_px) {}
 
   [[nodiscard]] PaddedGrid<float> heights() && {
@@ -76,9 +77,10 @@ private:
   void fill(int v, RowSums& row) {
     std::ranges::fill(row.surface, 0);
     std::span<std::int32_t const> const labels = segments_.labels.row(v);
+    runs_.find(labels);
     float* const heights = run_heights_.data() + 1;
     for (std::size_t begin = 0, end = 0; begin < labels.size(); begin = end) {
-      end = run_end(labels, begin);
+      end = runs_.end(begin);
       auto const& surface = surfaces_[static_cast<std::size_t>(labels[begin])];
       if (!surface) {
         continue;
@@ -117,6 +119,7 @@ private:
   double raised_quanta_;
   /// By label.
   std::vector<std::optional<FlatSurface>> surfaces_;
+  LabelRuns runs_;
   /// Of one run, between a 0 to each side.
   std::vector<float> run_heights_;
 };

@@ -12,11 +12,13 @@
 #include <vector>
 
 #include "core/runs.hpp"
+#include "stages/segments/label_runs.hpp"
 #include "stages/segments/outlines.hpp"
 
 namespace credo {
 namespace {
 
+using segments::LabelRuns;
 using segments::Meeting;
 using segments::Outline;
 using segments::PixelBox;
@@ -334,11 +336,13 @@ Segments join_parts(Segments segments, Grid<float> const& depth_m,
   // Numbered anew, by the first pixel of each.
   Labels number(root.size(), 0);
   std::vector<std::uint32_t> counts;
+  LabelRuns runs(segments.labels.width());
   for (int v = 0; v < segments.labels.height(); ++v) {
     std::span<std::int32_t> const row = segments.labels.row(v);
+    runs.find(row);
     std::size_t end = 0;
     for (std::size_t begin = 0; begin < row.size(); begin = end) {
-      end = run_end(std::span<std::int32_t const>(row), begin);
+      end = runs.end(begin);
       if (row[begin] == 0) {
         continue;
       }
