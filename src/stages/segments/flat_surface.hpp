@@ -33,9 +33,9 @@ struct FlatSurface {
     auto const& c = coefficients;
     return c[0] + u * (c[1] + u * c[3] + v * c[4]) + v * (c[2] + v * c[5]);
   }
-  /// Whether a sample is on it, within two quanta.
+  /// What is on it is nearer than that.
+  static constexpr double kOn_quanta = 2.0;
   [[nodiscard]] bool has(SurfaceSample const& s) const {
-    constexpr double kOn_quanta = 2.0;
     return std::abs(s.quanta - quanta(s.u, s.v)) < kOn_quanta;
   }
 };

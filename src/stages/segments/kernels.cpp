@@ -280,6 +280,13 @@ void at_least_bits_lanes(std::uint8_t const* row, std::uint8_t least, std::size_
       out);
 }
 
+void higher_bits_lanes(float const* row, float than, std::size_t count, std::uint64_t* out) {
+  DF const d;
+  auto const bound = hn::Set(d, than);
+  store_bits(
+      d, count, [&](std::size_t u) HWY_ATTR { return hn::LoadU(d, row + u) > bound; }, out);
+}
+
 void front_bits_lanes(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
                       std::size_t count, std::uint64_t* out) {
   D8 const d;
@@ -310,6 +317,7 @@ HWY_EXPORT(thicken_row_lanes);
 HWY_EXPORT(worth_row_lanes);
 HWY_EXPORT(different_bits_lanes);
 HWY_EXPORT(at_least_bits_lanes);
+HWY_EXPORT(higher_bits_lanes);
 HWY_EXPORT(front_bits_lanes);
 
 void disparity_row(float const* depth_m, std::size_t count, float units_m, std::int16_t* out) {
@@ -351,6 +359,10 @@ void different_bits(std::int32_t const* a, std::int32_t const* b, std::size_t co
 void at_least_bits(std::uint8_t const* row, std::uint8_t least, std::size_t count,
                    std::uint64_t* out) {
   HWY_DYNAMIC_DISPATCH(at_least_bits_lanes)(row, least, count, out);
+}
+
+void higher_bits(float const* row, float than, std::size_t count, std::uint64_t* out) {
+  HWY_DYNAMIC_DISPATCH(higher_bits_lanes)(row, than, count, out);
 }
 
 void front_bits(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -39,7 +40,10 @@ public:
         worth_(map.width(), map.height(), PartLabels::kFewMarginRows),
         bits_(map.width()),
         neighbours_({-1, 1, static_cast<Position>(-labels_.stride()),
-                     static_cast<Position>(labels_.stride())}) {
+                     static_cast<Position>(labels_.stride())}),
+        queue_(new Position[static_cast<std::size_t>(map.width()) *
+                                static_cast<std::size_t>(map.height()) +
+                            1]) {
     for (int v = 0; v < map.height(); ++v) {
       std::fill_n(labels_.row(v), map.width(), 0);
       worth_row(map.disparity.row(v), map.thickness.row(v), static_cast<std::size_t>(map.width()),
@@ -142,16 +146,20 @@ private:
   void grow(std::uint8_t least) {
     std::uint8_t* const worth = worth_.row(0);
     std::int32_t* const labels = labels_.row(0);
-    queue_.clear();
-    for_each_front(least, [&](Position at) { queue_.push_back(at); });
-    for (std::size_t i = 0; i < queue_.size(); ++i) {
-      Position const at = queue_[i];
+    Position* const queue = queue_.get();
+    std::size_t end = 0;
+    for_each_front(least, [&](Position at) { queue[end++] = at; });
+    for (std::size_t i = 0; i < end; ++i) {
+      Position const at = queue[i];
+      std::int32_t const label = labels[at];
       for (Position const step : neighbours_) {
-        if (worth[at + step] >= least) {
-          worth[at + step] = 0;
-          labels[at + step] = labels[at];
-          queue_.push_back(at + step);
-        }
+        // Without a branch: which way a front advances is not to be foreseen.
+        Position const next = at + step;
+        bool const is_taken = worth[next] >= least;
+        worth[next] = is_taken ? std::uint8_t{0} : worth[next];
+        labels[next] = is_taken ? label : labels[next];
+        queue[end] = next;
+        end += is_taken ? 1 : 0;
       }
     }
   }
@@ -192,7 +200,8 @@ private:
   std::array<Position, 4> neighbours_;
   std::int32_t next_ = 1;
   std::vector<Run> runs_;
-  std::vector<Position> queue_;
+  /// Room for every pixel and one more; not a vector: that would write all of it.
+  std::unique_ptr<Position[]> queue_;
 };
 
 }  // namespace

@@ -1,10 +1,14 @@
 #include "stages/segments/outlines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
+
+#include "stages/segments/label_runs.hpp"
+#include "stages/segments/row_bits.hpp"
 
 namespace credo::segments {
 namespace {
@@ -21,7 +25,9 @@ public:
       : labels_(segments.labels),
         depth_m_(depth_m),
         link_per_m_(link_per_m),
-        outlines_(segments.pixel_counts.size() + 1) {
+        outlines_(segments.pixel_counts.size() + 1),
+        runs_(labels_.width()),
+        borders_(labels_.width()) {
     for (std::size_t i = 0; i < segments.pixel_counts.size(); ++i) {
       outlines_[i + 1].pixels = segments.pixel_counts[i];
     }
@@ -30,6 +36,9 @@ public:
   std::vector<Outline> outlines() && {
     for (int v = 0; v < labels_.height(); ++v) {
       look_along(v);
+      if (v > 0) {
+        look_up(v);
+      }
     }
     for (std::size_t i = 1; i < outlines_.size(); ++i) {
       for (auto const& [other, meeting] : outlines_[i].meetings) {
@@ -42,28 +51,50 @@ public:
   }
 
 private:
+  /// Where segments meet, found again without a search: borders go on from row to row.
+  struct Recent {
+    std::int32_t lower = 0;
+    std::int32_t higher = 0;
+    Meeting* meeting = nullptr;
+  };
+  static constexpr std::size_t kRecent = 256;
+
   Outline& outline(std::int32_t label) { return outlines_[static_cast<std::size_t>(label)]; }
 
-  /// The runs of a row, and what is right of and below them.
+  /// Seen from the lower label.
+  Meeting& meeting_of(std::int32_t lower, std::int32_t higher) {
+    auto const place = static_cast<std::size_t>(lower) * 31 + static_cast<std::size_t>(higher);
+    Recent& recent = recent_[place % kRecent];
+    if (recent.lower != lower || recent.higher != higher) {
+      recent = {lower, higher, &outline(lower).meetings[higher]};
+    }
+    return *recent.meeting;
+  }
+
+  /// The runs of a row, and what is between them.
   void look_along(int v) {
     std::span<std::int32_t const> const row = labels_.row(v);
-    bool const has_below = v + 1 < labels_.height();
-    std::int32_t const* const below = has_below ? labels_.row(v + 1).data() : row.data();
-    int const width = labels_.width();
-    for (int u = 0; u < width;) {
-      int const begin = u;
-      std::int32_t const label = row[static_cast<std::size_t>(begin)];
-      for (; u < width && row[static_cast<std::size_t>(u)] == label; ++u) {
-        if (below[u] != label) {
-          look({u, v}, {u, v + 1});
-        }
-      }
+    runs_.find(row);
+    for (std::size_t begin = 0; begin < row.size();) {
+      auto const first = static_cast<int>(begin);
+      std::int32_t const label = row[begin];
+      begin = runs_.end(begin);
+      auto const next = static_cast<int>(begin);
       if (label != 0) {
-        outline(label).box.add({{begin, v}, {u - 1, v}});
+        outline(label).box.add({{first, v}, {next - 1, v}});
       }
-      if (u < width) {
-        look({u - 1, v}, {u, v});
+      if (begin < row.size()) {
+        look({next - 1, v}, {next, v});
       }
+    }
+  }
+
+  void look_up(int v) {
+    int const width = labels_.width();
+    border_bits(labels_.row(v - 1).data(), labels_.row(v).data(), static_cast<std::size_t>(width),
+                borders_);
+    for (int u = borders_.next_set(0); u < width; u = borders_.next_set(u + 1)) {
+      look({u, v - 1}, {u, v});
     }
   }
 
@@ -74,17 +105,13 @@ private:
       return;
     }
     float const nearer_per_m = 1.0F / depth_m_[p] - 1.0F / depth_m_[q];
-    Meeting meeting;
+    Meeting& meeting = meeting_of(std::min(a, b), std::max(a, b));
     if (std::abs(nearer_per_m) < link_per_m_) {
-      meeting.touching = 1;
-      meeting.touch = {p, q};
+      ++meeting.touching;
+      meeting.touch.add({p, q});
     } else {
-      (nearer_per_m > 0.0F ? meeting.before : meeting.behind) = 1;
-    }
-    if (a < b) {
-      outline(a).meetings[b].add(meeting);
-    } else {
-      outline(b).meetings[a].add(turned(meeting));
+      bool const is_before = nearer_per_m > 0.0F;
+      ++(is_before == (a < b) ? meeting.before : meeting.behind);
     }
   }
 
@@ -92,6 +119,9 @@ private:
   Grid<float> const& depth_m_;
   float link_per_m_;
   std::vector<Outline> outlines_;
+  std::array<Recent, kRecent> recent_;
+  LabelRuns runs_;
+  RowBits borders_;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "core/runs.hpp"
+#include "stages/segments/label_runs.hpp"
 #include "stages/segments/labels.hpp"
 #include "stages/segments/limits.hpp"
 #include "stages/segments/region_graph.hpp"
@@ -20,12 +20,14 @@ Segments numbered(segments::PartLabels const& labels, std::vector<std::int32_t> 
   Segments result;
   result.labels = Grid<std::int32_t>(labels.width(), labels.height());
   std::vector<std::int32_t> number_of(root.size(), 0);
+  segments::LabelRuns runs(labels.width());
   for (int v = 0; v < labels.height(); ++v) {
     std::span<std::int32_t const> const row(labels.row(v),
                                             static_cast<std::size_t>(labels.width()));
+    runs.find(row);
     std::size_t end = 0;
     for (std::size_t begin = 0; begin < row.size(); begin = end) {
-      end = run_end(row, begin);
+      end = runs.end(begin);
       if (row[begin] == 0) {
         continue;
       }

@@ -2,18 +2,23 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "core/runs.hpp"
+#include "stages/segments/label_runs.hpp"
 #include "stages/segments/outlines.hpp"
 
 namespace credo {
 namespace {
 
+using segments::LabelRuns;
 using segments::Meeting;
 using segments::Outline;
 using segments::PixelBox;
@@ -39,6 +44,70 @@ constexpr double kHollow_quanta = 10.0;
 constexpr double kBulging_quanta = -20.0;
 /// Surfaces within 37 degrees of level carry what touches them.
 constexpr double kLevelCosine = 0.8;
+
+/// Of 0 to below n, the sums of the powers 0 to 4; exact up to a thousand.
+std::array<double, 5> power_sums(double n) {
+  double const triangle = n * (n - 1.0) / 2.0;
+  double const pyramid = triangle * (2.0 * n - 1.0) / 3.0;
+  return {n, triangle, pyramid, triangle * triangle, pyramid * (3.0 * n * n - 3.0 * n - 1.0) / 5.0};
+}
+
+/// The quadratic that fits values at pixels best, from sums over runs of them.
+class QuadraticFit {
+public:
+  /// Side by side, from (u, v) on.
+  void add(int u, int v, std::vector<double> const& values) {
+    auto const from = power_sums(u);
+    auto const to = power_sums(u + static_cast<double>(values.size()));
+    std::array<double, 3> of_values = {};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      double const at = u + static_cast<double>(i);
+      of_values[0] += values[i];
+      of_values[1] += at * values[i];
+      of_values[2] += at * at * values[i];
+    }
+    double power_of_v = 1.0;
+    for (std::size_t j = 0; j < 5; ++j) {
+      for (std::size_t i = 0; i + j < 5; ++i) {
+        moments_[i][j] += (to[i] - from[i]) * power_of_v;
+      }
+      for (std::size_t i = 0; i + j < 3; ++i) {
+        products_[i][j] += of_values[i] * power_of_v;
+      }
+      power_of_v *= v;
+    }
+  }
+
+  /// The second differences of both axes over so many pixels.
+  [[nodiscard]] double bend(double over_px) const {
+    // Powers of u and v.
+    constexpr std::array<std::array<std::size_t, 2>, 6> kTerms = {
+        {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
+    std::array<double, 5> scale = {1.0};
+    for (std::size_t power = 1; power < scale.size(); ++power) {
+      scale[power] = scale[power - 1] / over_px;
+    }
+    Eigen::Matrix<double, 6, 6> squares;
+    Eigen::Matrix<double, 6, 1> products;
+    for (std::size_t i = 0; i < kTerms.size(); ++i) {
+      auto const [u, v] = kTerms[i];
+      products[static_cast<Eigen::Index>(i)] = products_[u][v] * scale[u + v];
+      for (std::size_t k = 0; k < kTerms.size(); ++k) {
+        std::size_t const all_u = u + kTerms[k][0];
+        std::size_t const all_v = v + kTerms[k][1];
+        squares(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+            moments_[all_u][all_v] * scale[all_u + all_v];
+      }
+    }
+    Eigen::Matrix<double, 6, 1> const fit = squares.ldlt().solve(products);
+    return 2.0 * (fit[3] + fit[5]);
+  }
+
+private:
+  /// By the powers of u and v.
+  std::array<std::array<double, 5>, 5> moments_ = {};
+  std::array<std::array<double, 3>, 3> products_ = {};
+};
 
 class PartJoiner {
 public:
@@ -147,30 +216,26 @@ private:
   /// How a surface bends over its size: of the quadratic that fits its inverse depth, the second
   /// differences over the square root of its pixels, both axes together. Positive where hollow.
   [[nodiscard]] double bend_quanta(Labels const& parts) const {
-    using Vector6 = Eigen::Matrix<double, 6, 1>;
-    Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
-    Vector6 products = Vector6::Zero();
     double pixels = 0.0;
     for (std::int32_t const part : parts) {
       pixels += outline(part).pixels;
     }
-    double const size_px = std::sqrt(pixels);
-    for (std::int32_t const part : parts) {
-      Pixel const centre = outline(parts.front()).box.first;
-      for_pixels(part, outline(part).box, [&](Pixel p) {
-        double const u = (p.u - centre.u) / size_px;
-        double const v = (p.v - centre.v) / size_px;
-        Vector6 terms;
-        terms << 1.0, u, v, u * u / 2.0, u * v, v * v / 2.0;
-        squares += terms * terms.transpose();
-        products += terms * quanta(p);
-      });
-    }
     if (pixels < 1.0) {
       return 0.0;
     }
-    Vector6 const fit = squares.ldlt().solve(products);
-    return fit[3] + fit[5];
+    Pixel const centre = outline(parts.front()).box.first;
+    QuadraticFit fit;
+    std::vector<double> quanta;
+    for (std::int32_t const part : parts) {
+      for_runs(part, outline(part).box, [&](int v, int begin, int end) {
+        quanta.clear();
+        for (int u = begin; u < end; ++u) {
+          quanta.push_back(quanta_at({u, v}));
+        }
+        fit.add(begin - centre.u, v - centre.v, quanta);
+      });
+    }
+    return fit.bend(std::sqrt(pixels));
   }
 
   /// Joins a segment to the only one that it touches, if it is small and does not rest on it.
@@ -213,30 +278,35 @@ private:
     PixelBox const around = place.grown(disc_px_, depth_m_.width(), depth_m_.height());
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     Eigen::Vector3d products = Eigen::Vector3d::Zero();
-    for_pixels(label, around, [&](Pixel p) {
-      Eigen::Vector3d const ray((p.u - intrinsics_.cx_px) / intrinsics_.fx_px,
-                                (p.v - intrinsics_.cy_px) / intrinsics_.fy_px, 1.0);
-      squares += ray * ray.transpose();
-      products += ray * quanta(p);
+    for_runs(label, around, [&](int v, int begin, int end) {
+      for (int u = begin; u < end; ++u) {
+        Eigen::Vector3d const ray((u - intrinsics_.cx_px) / intrinsics_.fx_px,
+                                  (v - intrinsics_.cy_px) / intrinsics_.fy_px, 1.0);
+        squares += ray * ray.transpose();
+        products += ray * quanta_at({u, v});
+      }
     });
     // A plane n p = 1 has inverse depth n ray: n points away from the camera.
     Eigen::Vector3d const normal = squares.ldlt().solve(products);
     return -normal.dot(*up_camera_) > kLevelCosine * normal.norm();
   }
 
+  /// Calls `visit(v, begin, end)` for the runs of a label and of what has gone into it.
   template <typename Visit>
-  void for_pixels(std::int32_t label, PixelBox const& box, Visit const& visit) const {
+  void for_runs(std::int32_t label, PixelBox const& box, Visit const& visit) const {
     for (int v = box.first.v; v <= box.last.v; ++v) {
-      for (int u = box.first.u; u <= box.last.u; ++u) {
-        std::int32_t const found = segments_.labels[Pixel{u, v}];
-        if (root_[static_cast<std::size_t>(found)] == label) {
-          visit({u, v});
+      auto const row = segments_.labels.row(v).first(static_cast<std::size_t>(box.last.u + 1));
+      std::size_t end = 0;
+      for (auto begin = static_cast<std::size_t>(box.first.u); begin < row.size(); begin = end) {
+        end = run_end(row, begin);
+        if (root_[static_cast<std::size_t>(row[begin])] == label) {
+          visit(v, static_cast<int>(begin), static_cast<int>(end));
         }
       }
     }
   }
 
-  [[nodiscard]] double quanta(Pixel p) const {
+  [[nodiscard]] double quanta_at(Pixel p) const {
     return 1.0 / (static_cast<double>(depth_m_[p]) * quantum_per_m_);
   }
 
@@ -266,17 +336,27 @@ Segments join_parts(Segments segments, Grid<float> const& depth_m,
   // Numbered anew, by the first pixel of each.
   Labels number(root.size(), 0);
   std::vector<std::uint32_t> counts;
-  for (std::int32_t& label : segments.labels) {
-    if (label == 0) {
-      continue;
+  LabelRuns runs(segments.labels.width());
+  for (int v = 0; v < segments.labels.height(); ++v) {
+    std::span<std::int32_t> const row = segments.labels.row(v);
+    runs.find(row);
+    std::size_t end = 0;
+    for (std::size_t begin = 0; begin < row.size(); begin = end) {
+      end = runs.end(begin);
+      if (row[begin] == 0) {
+        continue;
+      }
+      auto const whole = static_cast<std::size_t>(root[static_cast<std::size_t>(row[begin])]);
+      if (number[whole] == 0) {
+        counts.push_back(0);
+        number[whole] = static_cast<std::int32_t>(counts.size());
+      }
+      counts[static_cast<std::size_t>(number[whole] - 1)] +=
+          static_cast<std::uint32_t>(end - begin);
+      if (row[begin] != number[whole]) {
+        std::ranges::fill(row.subspan(begin, end - begin), number[whole]);
+      }
     }
-    std::int32_t& of = number[static_cast<std::size_t>(root[static_cast<std::size_t>(label)])];
-    if (of == 0) {
-      counts.push_back(0);
-      of = static_cast<std::int32_t>(counts.size());
-    }
-    ++counts[static_cast<std::size_t>(of - 1)];
-    label = of;
   }
   segments.pixel_counts = std::move(counts);
   return segments;
