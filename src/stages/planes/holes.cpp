@@ -41,8 +41,7 @@ struct SegmentsHeld {
   [[nodiscard]] std::size_t segment_of(std::size_t pixel) const {
     return static_cast<std::size_t>((*labels)[pixel]);
   }
-  [[nodiscard]] bool mostly(std::size_t pixel) const {
-    std::size_t const segment = segment_of(pixel);
+  [[nodiscard]] bool mostly(std::size_t segment) const {
     return segment != 0 && explained[segment] >= kMostlyShare * all[segment];
   }
   [[nodiscard]] bool hardly(std::size_t pixel, std::size_t surface) const {
@@ -92,10 +91,9 @@ void complete_segments(PlaneView const& view, std::vector<FoundSurface> const& f
   double const max_height_m = view.config.floor_max_height_m;
   CountedPixels const unassigned =
       unassigned_pixels(segmentation.labels, segmentation.segments, view.pieces);
-  unassigned.pixels.for_each([&](std::size_t i) {
-    if (!held.mostly(i)) {
-      return;
-    }
+  CountedPixels const open = view.pieces.where(
+      unassigned.pixels, [&](std::size_t segment) { return held.mostly(segment); });
+  open.pixels.for_each([&](std::size_t i) {
     bool const too_high = max_height_m > 0.0 && std::abs(height_m(i)) > max_height_m;
     Eigen::Vector3d const p_camera = view.cloud.at(i).cast<double>();
     double nearest_m = near.distance_m(view.cloud.z[i]);

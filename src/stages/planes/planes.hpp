@@ -67,9 +67,9 @@ FieldList fields(PlanesConfig& config);
 /// Where there are segments, floor and walls are made of them: one that a plane holds most of
 /// belongs to it as far as it keeps near, and of one that it holds little of it takes nothing. So
 /// the foot of what stands on the floor is not floor, and a carpet's rough edge is. Walls are
-/// fitted to their largest segment and to those coplanar with it. Planes are looked for in one
-/// segment after the other (segment_planes.hpp), without segments in all that is left (thesis
-/// algorithm 2).
+/// fitted to their largest segment and to those coplanar with it. Walls are looked for in
+/// one segment after the other, the floor in what is low (segment_planes.hpp); without segments
+/// both are in all that is left (thesis algorithm 2).
 Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
                             PlanesConfig const& config);
 

@@ -12,8 +12,8 @@
 namespace credo {
 
 /// What no plane has taken yet (thesis algorithm 2). Planes are found and fitted on a sample of it,
-/// then every pixel is asked. Where there are segments, planes are looked for in each of these;
-/// else, the largest one of all is, time and again.
+/// then every pixel is asked. Where there are segments, these suggest planes; else the largest
+/// one of all is looked for, time and again.
 class RemainingPoints {
 public:
   RemainingPoints(PlaneView const& view, Segments const& segments, CountedPixels pixels);

@@ -13,8 +13,8 @@
 namespace credo {
 namespace {
 
-/// Of a segment, at most so many points are searched, for at most so many planes. A prime, so that
-/// they keep step with no pattern.
+/// At most so many points are searched, for at most so many planes. A prime, so that they keep step
+/// with no pattern.
 constexpr std::size_t kMostPoints = 509;
 constexpr int kMostPlanes = 3;
 /// Of the pixels that a plane must have, those of one segment: a wall may be seen in pieces.
@@ -59,51 +59,46 @@ PlaneSearchPoints spread_points(PlaneSearchPoints const& sample,
   return sample.at(some);
 }
 
-/// By its tilt, and where it would be floor, by its points' height.
-bool may_be_floor_or_wall(PlaneView const& view, FoundPlane const& found,
-                          PlaneSearchPoints const& points) {
-  // Of the whole floor, this may be the worst part.
-  constexpr double kHeightSlack = 2.0;
-  Se3 const& T_world_camera = view.T_world_camera;
-  double const normal_z = std::abs((T_world_camera.rotation() * found.plane.normal).z());
-  if (normal_z < view.config.wall_max_normal_z) {
-    return true;
+/// Appends those planes of the points at `positions` that are upright, or else those that are
+/// level; what has fewer than `least` of the points is none.
+void search(PlaneView const& view, PlaneSearchPoints const& sample,
+            std::span<std::uint32_t const> positions, double least, bool upright,
+            std::uint32_t seed, std::vector<Plane>& planes) {
+  if (static_cast<double>(positions.size()) < least) {
+    return;
   }
-  if (!view.floor_at_zero || normal_z < 1.0 - view.config.floor_max_normal_z_gap) {
-    return false;
-  }
-  double sum_m = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (found.inliers[i] != 0) {
-      sum_m +=
-          std::abs((T_world_camera * Eigen::Vector3d(points.x[i], points.y[i], points.z[i])).z());
-    }
-  }
-  return sum_m <= kHeightSlack * view.config.floor_max_mean_height_m *
-                      static_cast<double>(found.inlier_count);
-}
-
-/// Appends a segment's planes, those of fewer than `least` points aside.
-void search_segment(PlaneView const& view, PlaneSearchPoints points, double least,
-                    std::uint32_t seed, std::vector<Plane>& planes) {
   PlanesConfig const& config = view.config;
-  for (int k = 0; k < kMostPlanes && static_cast<double>(points.size()) >= least; ++k) {
+  PlaneSearchPoints points = spread_points(sample, positions);
+  double const least_spread =
+      least * static_cast<double>(points.size()) / static_cast<double>(positions.size());
+  for (int k = 0; k < kMostPlanes; ++k) {
     std::optional<FoundPlane> const found =
         find_largest_plane(points, {config.sampling, config.max_angle_rad, config.confidence,
                                     config.max_hypotheses, config.scoring_points, seed});
-    if (!found || static_cast<double>(found->inlier_count) < least) {
+    if (!found || static_cast<double>(found->inlier_count) < least_spread) {
       return;
     }
-    if (may_be_floor_or_wall(view, *found, points)) {
+    double const normal_z = std::abs((view.T_world_camera.rotation() * found->plane.normal).z());
+    if (upright ? normal_z < config.wall_max_normal_z
+                : normal_z >= 1.0 - config.floor_max_normal_z_gap) {
       planes.push_back(found->plane);
     }
     points.remove(found->inliers);
   }
 }
 
-/// What the level says the floor is.
-Plane plane_at_zero(PlaneView const& view) {
-  return transformed(view.T_world_camera.inverse(), Plane{Eigen::Vector3d::UnitZ(), 0.0});
+/// The positions of points that are near enough to z = 0 to be floor.
+std::vector<std::uint32_t> low_positions(PlaneView const& view, PlaneSearchPoints const& sample) {
+  Heights const height_m(view);
+  auto const most_m = static_cast<float>(
+      std::max(view.config.floor_max_height_m, view.config.floor_max_mean_height_m));
+  std::vector<std::uint32_t> low;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    if (std::abs(height_m(sample.source[i])) <= most_m) {
+      low.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return low;
 }
 
 /// Those with at least so many points of the sample, the one with the most first, and of equals the
@@ -134,22 +129,14 @@ std::vector<Plane> largest_first(std::vector<Plane> const& planes, PlaneSearchPo
 std::vector<Plane> segment_planes(PlaneView const& view, Segments const& segments,
                                   PlaneSearchPoints const& sample, double pixels_per_point) {
   double const least = view.config.min_plane_pixels / pixels_per_point;
-  PositionsBySegment const positions(segments, sample);
+  auto seed = static_cast<std::uint32_t>(view.config.seed);
   std::vector<Plane> planes;
-  for (std::size_t segment = 1; segment <= segments.pixel_counts.size(); ++segment) {
-    std::span<std::uint32_t const> const own = positions.of(segment);
-    if (static_cast<double>(own.size()) < kLeastPart * least) {
-      continue;
-    }
-    PlaneSearchPoints points = spread_points(sample, own);
-    double const thinned = static_cast<double>(points.size()) / static_cast<double>(own.size());
-    search_segment(
-        view, std::move(points), thinned * kLeastPart * least,
-        static_cast<std::uint32_t>(view.config.seed) + static_cast<std::uint32_t>(segment), planes);
-  }
-  // Small patches of floor, between the rungs of a chair, tell too little of their common plane.
   if (view.floor_at_zero) {
-    planes.push_back(plane_at_zero(view));
+    search(view, sample, low_positions(view, sample), least, false, seed, planes);
+  }
+  PositionsBySegment const positions(segments, sample);
+  for (std::size_t segment = 1; segment <= segments.pixel_counts.size(); ++segment) {
+    search(view, sample, positions.of(segment), kLeastPart * least, true, ++seed, planes);
   }
   return largest_first(planes, sample, least, view.config.max_angle_rad);
 }

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kStrips = 64;
 /// Of all pixels of the picture every so manieth is looked at: no divisor of usual widths, so that
 /// all columns are.
-constexpr std::size_t kEvery = 11;
+constexpr std::size_t kEvery = 23;
 /// A strip with a smaller part of a fair share of the plane's pixels does not show it.
 constexpr double kLeastPart = 0.1;
 
