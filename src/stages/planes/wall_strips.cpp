@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kStrips = 64;
 /// Of all pixels of the picture every so manieth is looked at: no divisor of usual widths, so that
 /// all columns are.
-constexpr std::size_t kEvery = 23;
+constexpr std::size_t kEvery = 11;
 /// A strip with a smaller part of a fair share of the plane's pixels does not show it.
 constexpr double kLeastPart = 0.1;
 
@@ -71,8 +71,9 @@ Strips counted_strips(PlaneView const& view, PixelPlane const& plane, CountedPix
   float least = std::numeric_limits<float>::infinity();
   float most = -least;
   for_some(view, plane.inliers, [&](std::size_t i) {
-    least = std::min(least, bearing(i));
-    most = std::max(most, bearing(i));
+    float const tangent = bearing(i);
+    least = std::min(least, tangent);
+    most = std::max(most, tangent);
   });
   // A little less than all strips, so that the rightmost pixels are in the last.
   float const strips_per_tangent =
@@ -98,10 +99,13 @@ Strips counted_strips(PlaneView const& view, PixelPlane const& plane, CountedPix
   });
   for_some(view, behind, [&](std::size_t i) {
     Strip& strip = strip_of(i);
-    bool const is_parallel = std::abs(normal.dot(view.normals.at(i))) >= kParallelCosine;
     float const depth_m = std::abs(normal.dot(view.cloud.at(i)) - offset_m);
     ++strip.behind;
-    strip.backed += is_parallel && depth_m <= kFurnitureDepth_m ? 1 : 0;
+    // Most lie deeper: their normals need not be fetched.
+    if (depth_m <= kFurnitureDepth_m &&
+        std::abs(normal.dot(view.normals.at(i))) >= kParallelCosine) {
+      ++strip.backed;
+    }
   });
   return strips;
 }
