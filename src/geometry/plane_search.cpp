@@ -30,7 +30,8 @@ Positions positions_where(std::span<std::uint8_t const> flags, bool value) {
 }
 
 /// The points at those positions, which rise; `to` and `from` may be the same.
-void gather(PlaneSearchPoints const& from, Positions const& positions, PlaneSearchPoints& to) {
+void gather(PlaneSearchPoints const& from, std::span<std::uint32_t const> positions,
+            PlaneSearchPoints& to) {
   // A column at a time: many loads are then under way at once.
   auto const column = [&](auto const& source, auto& target) {
     target.resize(std::max(target.size(), positions.size()));
@@ -55,9 +56,7 @@ PlaneSearchPoints spread_subset(PlaneSearchPoints const& points, std::size_t cou
   for (std::size_t k = 0; k < positions.size(); ++k) {
     positions[k] = static_cast<std::uint32_t>(k * points.size() / positions.size());
   }
-  PlaneSearchPoints subset;
-  gather(points, positions, subset);
-  return subset;
+  return points.at(positions);
 }
 
 Eigen::Vector3d point_at(PlaneSearchPoints const& points, std::size_t i) {
@@ -134,6 +133,12 @@ void PlaneSearchPoints::add(Eigen::Vector3f const& point, Eigen::Vector3f const&
   source.push_back(name);
 }
 
+PlaneSearchPoints PlaneSearchPoints::at(std::span<std::uint32_t const> positions) const {
+  PlaneSearchPoints points;
+  gather(*this, positions, points);
+  return points;
+}
+
 void PlaneSearchPoints::remove(std::span<std::uint8_t const> removed) {
   gather(*this, positions_where(removed, false), *this);
 }
@@ -188,6 +193,31 @@ std::optional<Plane> fit_plane(PlaneSearchPoints const& points, std::span<std::u
   return Plane{normal, normal.dot(mean)};
 }
 
+FoundPlane refined(FoundPlane found, PlaneSearchPoints const& points, double max_angle_rad) {
+  // Least squares on the inliers moves the plane, which moves its inliers, until it rests. A few
+  // inliers less are no reason to prefer the draw, which is as good as its points; many less are:
+  // the fit then follows something else.
+  constexpr int kMaxRounds = 8;
+  constexpr double kStillTheSame = 0.95;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    std::optional<Plane> const fit = fit_plane(points, found.inliers, found.plane.normal);
+    if (!fit) {
+      break;
+    }
+    FoundPlane better = inliers_of(*fit, points, max_angle_rad);
+    if (static_cast<double>(better.inlier_count) <
+        kStillTheSame * static_cast<double>(found.inlier_count)) {
+      break;
+    }
+    bool const rests = better.inliers == found.inliers;
+    found = std::move(better);
+    if (rests) {
+      break;
+    }
+  }
+  return found;
+}
+
 std::optional<FoundPlane> find_largest_plane(PlaneSearchPoints const& points,
                                              PlaneSearchLimits const& limits) {
   if (points.size() < 3) {
@@ -215,29 +245,7 @@ std::optional<FoundPlane> find_largest_plane(PlaneSearchPoints const& points,
   if (!best) {
     return std::nullopt;
   }
-  // Least squares on the inliers moves the plane, which moves its inliers, until it rests. A few
-  // inliers less are no reason to prefer the draw, which is as good as its points; many less are:
-  // the fit then follows something else.
-  constexpr int kMaxRounds = 8;
-  constexpr double kStillTheSame = 0.95;
-  FoundPlane found = inliers_of(*best, points, limits.max_angle_rad);
-  for (int round = 0; round < kMaxRounds; ++round) {
-    std::optional<Plane> const refined = fit_plane(points, found.inliers, found.plane.normal);
-    if (!refined) {
-      break;
-    }
-    FoundPlane better = inliers_of(*refined, points, limits.max_angle_rad);
-    if (static_cast<double>(better.inlier_count) <
-        kStillTheSame * static_cast<double>(found.inlier_count)) {
-      break;
-    }
-    bool const rests = better.inliers == found.inliers;
-    found = std::move(better);
-    if (rests) {
-      break;
-    }
-  }
-  return found;
+  return refined(inliers_of(*best, points, limits.max_angle_rad), points, limits.max_angle_rad);
 }
 
 }  // namespace credo

@@ -25,6 +25,8 @@ struct PlaneSearchPoints {
   void reserve(std::size_t count);
   void add(Eigen::Vector3f const& point, Eigen::Vector3f const& normal, float tolerance,
            std::uint32_t name);
+  /// The points at those positions, which rise.
+  [[nodiscard]] PlaneSearchPoints at(std::span<std::uint32_t const> positions) const;
   /// Keeps the points whose flag is 0, in their order. `removed` has one flag a point.
   void remove(std::span<std::uint8_t const> removed);
 };
@@ -64,6 +66,9 @@ struct FoundPlane {
 /// round of algorithm 2). None for fewer than three points or where all draws are degenerate.
 std::optional<FoundPlane> find_largest_plane(PlaneSearchPoints const& points,
                                              PlaneSearchLimits const& limits);
+
+/// Least squares on the plane's inliers, which moves it and so them, until it rests or loses some.
+FoundPlane refined(FoundPlane found, PlaneSearchPoints const& points, double max_angle_rad);
 
 /// Marks the inliers of a given plane and counts them.
 FoundPlane inliers_of(Plane const& plane, PlaneSearchPoints const& points, double max_angle_rad);

@@ -27,8 +27,12 @@ FieldList search_fields(PlanesConfig& config) {
        &config.min_plane_pixels,
        {3, 1e6},
        "pixels",
-       "a plane with fewer inliers ends the search"},
-      {"max_planes", &config.max_planes, {1, 10000}, "", "planes to look for in a frame, at most"},
+       "a plane with fewer inliers is none; without segments it ends the search"},
+      {"max_planes",
+       &config.max_planes,
+       {1, 10000},
+       "",
+       "planes to look for in a frame, at most; of no account where there are segments"},
       choice("sampling", config.sampling, {"three_points", "point_and_normal"},
              "what RANSAC draws a plane from"),
       {"confidence",
@@ -46,7 +50,7 @@ FieldList search_fields(PlanesConfig& config) {
        &config.sample_points,
        {1024, 1e7},
        "points",
-       "a plane is drawn from and fitted to so many evenly spread points"},
+       "a plane is drawn from and fitted to so many evenly spread points at most"},
       {"seed", &config.seed, {0, 2e9}, "", "seed of the draws"},
   };
 }

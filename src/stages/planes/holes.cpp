@@ -41,8 +41,7 @@ struct SegmentsHeld {
   [[nodiscard]] std::size_t segment_of(std::size_t pixel) const {
     return static_cast<std::size_t>((*labels)[pixel]);
   }
-  [[nodiscard]] bool mostly(std::size_t pixel) const {
-    std::size_t const segment = segment_of(pixel);
+  [[nodiscard]] bool mostly(std::size_t segment) const {
     return segment != 0 && explained[segment] >= kMostlyShare * all[segment];
   }
   [[nodiscard]] bool hardly(std::size_t pixel, std::size_t surface) const {
@@ -92,17 +91,20 @@ void complete_segments(PlaneView const& view, std::vector<FoundSurface> const& f
   double const max_height_m = view.config.floor_max_height_m;
   CountedPixels const unassigned =
       unassigned_pixels(segmentation.labels, segmentation.segments, view.pieces);
-  unassigned.pixels.for_each([&](std::size_t i) {
-    if (!held.mostly(i)) {
-      return;
-    }
-    bool const too_high = max_height_m > 0.0 && std::abs(height_m(i)) > max_height_m;
+  CountedPixels const open = view.pieces.where(
+      unassigned.pixels, [&](std::size_t segment) { return held.mostly(segment); });
+  open.pixels.for_each([&](std::size_t i) {
+    auto const too_high = [&] {
+      return max_height_m > 0.0 && std::abs(height_m(i)) > max_height_m;
+    };
     Eigen::Vector3d const p_camera = view.cloud.at(i).cast<double>();
     double nearest_m = near.distance_m(view.cloud.z[i]);
     for (std::size_t k = 0; k < found.size(); ++k) {
+      if (held.hardly(i, k)) {
+        continue;
+      }
       double const distance_m = std::abs(found[k].camera.signed_distance_m(p_camera));
-      bool const allowed = !held.hardly(i, k) && !(too_high && found[k].label == kFloor);
-      if (allowed && distance_m <= nearest_m) {
+      if (distance_m <= nearest_m && !(found[k].label == kFloor && too_high())) {
         nearest_m = distance_m;
         segmentation.labels[i] = found[k].label;
       }

@@ -8,7 +8,7 @@ namespace credo {
 bool is_floor(PlaneView const& view, PixelPlane const& plane) {
   PlanesConfig const& config = view.config;
   Eigen::Vector3d const& n = plane.world.normal;
-  if (std::abs(n.x()) > config.floor_max_normal_xy ||
+  if (!view.floor_at_zero || std::abs(n.x()) > config.floor_max_normal_xy ||
       std::abs(n.y()) > config.floor_max_normal_xy ||
       std::abs(n.z() - 1.0) > config.floor_max_normal_z_gap) {
     return false;

@@ -38,8 +38,7 @@ bool are_many(PlaneView const& view, PixelPlane const& plane, std::size_t pixels
 /// Thesis 3.2: nearly nothing on one of its sides, whichever.
 bool has_nothing_on_a_side(PlaneView const& view, PixelPlane const& plane) {
   auto const many_behind = [&](Plane const& side) {
-    return are_many(view, plane,
-                    pixels_behind(side, view.cloud, view.valid.pixels, view.tolerance).count);
+    return are_many(view, plane, pixels_clear_behind(view, side).count);
   };
   return !many_behind(plane.camera) || !many_behind(plane.camera.flipped());
 }
@@ -53,8 +52,8 @@ bool closes_the_view(PlaneView const& view, PixelPlane const& plane) {
   constexpr double kMaxBackedShare = 0.2;
   // The camera is at the origin.
   bool const faces_camera = plane.camera.signed_distance_m(Eigen::Vector3d::Zero()) >= 0.0;
-  CountedPixels const behind = pixels_behind(faces_camera ? plane.camera : plane.camera.flipped(),
-                                             view.cloud, view.valid.pixels, view.tolerance);
+  CountedPixels const behind =
+      pixels_clear_behind(view, faces_camera ? plane.camera : plane.camera.flipped());
   if (!are_many(view, plane, behind.count)) {
     return true;
   }
@@ -75,9 +74,9 @@ bool is_wall(PlaneView const& view, PixelPlane const& plane) {
   Eigen::Vector3d const n = plane.world.normal.cwiseAbs();
   return n.z() < config.wall_max_normal_z && std::max(n.x(), n.y()) > config.wall_min_normal_xy &&
          plane.inliers.count >= static_cast<std::size_t>(config.wall_min_pixels) &&
+         vertical_extent_m(view, plane) >= config.wall_min_extent_m &&
          (config.wall_beyond == WallBeyond::kBehind ? closes_the_view(view, plane)
-                                                    : has_nothing_on_a_side(view, plane)) &&
-         vertical_extent_m(view, plane) >= config.wall_min_extent_m;
+                                                    : has_nothing_on_a_side(view, plane));
 }
 
 }  // namespace credo

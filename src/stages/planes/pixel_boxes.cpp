@@ -46,7 +46,11 @@ HWY_EXPORT(bound_words);
 
 }  // namespace planes
 
-PixelBoxes::PixelBoxes(OrganizedCloud const& cloud) {
+void PixelBoxes::bound() const {
+  if (!least_[0].empty()) {
+    return;
+  }
+  OrganizedCloud const& cloud = *cloud_;
   constexpr std::size_t kBits = PixelSet::kWordBits;
   std::size_t const whole = cloud.size() / kBits;
   std::size_t const words = (cloud.size() + kBits - 1) / kBits;
@@ -68,23 +72,41 @@ PixelBoxes::PixelBoxes(OrganizedCloud const& cloud) {
   }
 }
 
+// A pixel's distance is reckoned in floats, and so are the bounds of all distances in a box, by the
+// same steps. Rounding never swaps the greater and the smaller: the bounds hold to the bit.
+class PixelBoxes::Distances {
+public:
+  Distances(PixelBoxes const& boxes, Plane const& plane_camera)
+      : normal_(plane_camera.normal.cast<float>()),
+        offset_m_(static_cast<float>(plane_camera.offset_m)) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bool const along = normal_[static_cast<Eigen::Index>(axis)] >= 0.0F;
+      low_[axis] = (along ? boxes.least_ : boxes.greatest_)[axis].data();
+      high_[axis] = (along ? boxes.greatest_ : boxes.least_)[axis].data();
+    }
+  }
+
+  [[nodiscard]] float least_m(std::size_t word) const { return at(low_, word); }
+  [[nodiscard]] float greatest_m(std::size_t word) const { return at(high_, word); }
+
+private:
+  using Corners = std::array<float const*, 3>;
+
+  [[nodiscard]] float at(Corners const& corner, std::size_t word) const {
+    return normal_.x() * corner[0][word] + normal_.y() * corner[1][word] +
+           normal_.z() * corner[2][word] - offset_m_;
+  }
+
+  Eigen::Vector3f normal_;
+  float offset_m_;
+  Corners low_{};
+  Corners high_{};
+};
+
 PixelSet PixelBoxes::near(Plane const& plane_camera, PixelSet const& among,
                           PlaneTolerance const& tolerance) const {
-  // A pixel's distance is reckoned in floats, and so are the bounds of all distances in a box, by
-  // the same steps. Rounding never swaps the greater and the smaller: the bounds hold to the bit.
-  Eigen::Vector3f const normal = plane_camera.normal.cast<float>();
-  auto const offset_m = static_cast<float>(plane_camera.offset_m);
-  std::array<float const*, 3> low{};
-  std::array<float const*, 3> high{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    bool const along = normal[static_cast<Eigen::Index>(axis)] >= 0.0F;
-    low[axis] = (along ? least_ : greatest_)[axis].data();
-    high[axis] = (along ? greatest_ : least_)[axis].data();
-  }
-  auto const distance_m = [&](std::array<float const*, 3> const& corner, std::size_t w) {
-    return normal.x() * corner[0][w] + normal.y() * corner[1][w] + normal.z() * corner[2][w] -
-           offset_m;
-  };
+  bound();
+  Distances const distances(*this, plane_camera);
   PixelSet result = among;
   std::span<std::uint64_t> const words = result.words();
   for (std::size_t w = 0; w < words.size(); ++w) {
@@ -94,8 +116,32 @@ PixelSet PixelBoxes::near(Plane const& plane_camera, PixelSet const& among,
     // Noise grows to both sides of one depth.
     float const limit_m =
         std::max(tolerance.distance_m(least_[2][w]), tolerance.distance_m(greatest_[2][w]));
-    if (distance_m(low, w) > limit_m || distance_m(high, w) < -limit_m) {
+    if (distances.least_m(w) > limit_m || distances.greatest_m(w) < -limit_m) {
       words[w] = 0;
+    }
+  }
+  return result;
+}
+
+PixelBoxes::Behind PixelBoxes::behind(Plane const& plane_camera, PixelSet const& among,
+                                      PlaneTolerance const& tolerance) const {
+  bound();
+  Distances const distances(*this, plane_camera);
+  std::span<std::uint64_t const> const asked = among.words();
+  Behind result{{PixelSet(asked.size() * PixelSet::kWordBits), 0},
+                PixelSet(asked.size() * PixelSet::kWordBits)};
+  for (std::size_t w = 0; w < asked.size(); ++w) {
+    if (asked[w] == 0) {
+      continue;
+    }
+    // As above; and between the box' ends noise may be as little as at that one depth.
+    float const most_m =
+        std::max(tolerance.distance_m(least_[2][w]), tolerance.distance_m(greatest_[2][w]));
+    float const least_m = tolerance.distance_m(std::max(least_[2][w], PlaneTolerance::kNearestM));
+    if (distances.greatest_m(w) < -most_m) {
+      result.certain.insert(w, asked[w]);
+    } else if (distances.least_m(w) < -least_m) {
+      result.open.words()[w] = asked[w];
     }
   }
   return result;

@@ -19,6 +19,8 @@ struct PlaneView {
   OrganizedCloud const& cloud;
   NormalMap const& normals;
   Se3 const& T_world_camera;
+  /// Else nothing is floor.
+  bool floor_at_zero;
   PlanesConfig const& config;
   PlaneTolerance tolerance;
   PixelBoxes boxes;
@@ -33,6 +35,15 @@ struct PlaneView {
                                                  PlaneTolerance const& tolerance) {
   return plane_inliers(plane_camera, view.cloud, view.normals,
                        view.boxes.near(plane_camera, pixels, tolerance), tolerance);
+}
+
+/// Of all pixels with depth, those that lie clear of the plane on the side that its normal does not
+/// point to.
+[[nodiscard]] inline CountedPixels pixels_clear_behind(PlaneView const& view,
+                                                       Plane const& plane_camera) {
+  auto [behind, open] = view.boxes.behind(plane_camera, view.valid.pixels, view.tolerance);
+  behind.insert(pixels_behind(plane_camera, view.cloud, open, view.tolerance));
+  return behind;
 }
 
 /// A plane with its pixels.

@@ -84,6 +84,7 @@ Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmen
   PlaneView const view{frame.cloud_camera,
                        normals,
                        segmentation.T_world_camera,
+                       segmentation.floor_at_zero,
                        config,
                        tolerance_of(config),
                        PixelBoxes(frame.cloud_camera),
@@ -93,22 +94,33 @@ Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmen
       view, segmentation.segments,
       unassigned_pixels(segmentation.labels, segmentation.segments, view.pieces));
   std::vector<FoundSurface> found;
-  for (int k = 0; k < config.max_planes; ++k) {
-    std::optional<PixelPlane> plane = remaining.take_largest(
-        static_cast<std::uint32_t>(config.seed) + static_cast<std::uint32_t>(k));
-    if (!plane) {
-      break;
-    }
-    if (segmentation.floor_at_zero && is_floor(view, *plane)) {
-      remaining.settle(*plane);
-      add_floor(view, *plane, segmentation);
-      found.push_back({kFloor, plane->camera});
-    } else if (segmentation.walls.size() < kMaxWalls && is_wall(view, *plane)) {
-      remaining.settle(*plane);
+  auto const label = [&](PixelPlane plane) {
+    if (is_floor(view, plane)) {
+      remaining.settle(plane);
+      found.push_back({kFloor, plane.camera});
+      add_floor(view, std::move(plane), segmentation);
+    } else if (segmentation.walls.size() < kMaxWalls && is_wall(view, plane)) {
+      remaining.settle(plane);
       // It may have held hardly anything of all its segments.
-      if (plane->inliers.count >= static_cast<std::size_t>(config.wall_min_pixels)) {
-        add_wall(view, *plane, segmentation);
-        found.push_back({segmentation.walls.back().label, plane->camera});
+      if (plane.inliers.count >= static_cast<std::size_t>(config.wall_min_pixels)) {
+        add_wall(view, plane, segmentation);
+        found.push_back({segmentation.walls.back().label, plane.camera});
+      }
+    }
+  };
+  if (view.pieces.empty()) {
+    auto seed = static_cast<std::uint32_t>(config.seed);
+    for (int k = 0; k < config.max_planes; ++k) {
+      std::optional<PixelPlane> plane = remaining.take_largest(seed++);
+      if (!plane) {
+        break;
+      }
+      label(*std::move(plane));
+    }
+  } else {
+    for (Plane const& suggested : remaining.suggested()) {
+      if (std::optional<PixelPlane> plane = remaining.take(suggested)) {
+        label(*std::move(plane));
       }
     }
   }

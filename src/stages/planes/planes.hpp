@@ -22,14 +22,15 @@ struct PlanesConfig {
   double noise_sigmas = 4.0;
   /// A point with a normal belongs to a plane only within this angle; pi/2 or more switches it off.
   double max_angle_rad = 0.35;
-  /// Planes with fewer inliers end the search (T: 150).
+  /// A plane with fewer inliers is none (T: 150), and without segments ends the search, as does
+  /// the last of so many planes.
   int min_plane_pixels = 1500;
   int max_planes = 16;
   PlaneSampling sampling = PlaneSampling::kPointAndNormal;
   double confidence = 0.99;
   int max_hypotheses = 100;
   int scoring_points = 2048;
-  int sample_points = 16384;
+  int sample_points = 8192;
   int seed = 1;
   /// Floor: horizontal components of the normal at most this (T: 0.5), the vertical one at least
   /// one minus the other (T: 0.1), mean |z| of the inliers at most the third (T: 0.1).
@@ -66,7 +67,9 @@ FieldList fields(PlanesConfig& config);
 /// Where there are segments, floor and walls are made of them: one that a plane holds most of
 /// belongs to it as far as it keeps near, and of one that it holds little of it takes nothing. So
 /// the foot of what stands on the floor is not floor, and a carpet's rough edge is. Walls are
-/// fitted to their largest segment and to those coplanar with it.
+/// fitted to their largest segment and to those coplanar with it. Walls are looked for in
+/// one segment after the other, the floor in what is low (segment_planes.hpp); without segments
+/// both are in all that is left (thesis algorithm 2).
 Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
                             PlanesConfig const& config);
 

@@ -7,6 +7,7 @@
 
 #include "geometry/segment_shares.hpp"
 #include "stages/planes/plane_sample.hpp"
+#include "stages/planes/segment_planes.hpp"
 
 namespace credo {
 namespace {
@@ -28,35 +29,49 @@ RemainingPoints::RemainingPoints(PlaneView const& view, Segments const& segments
 
 std::optional<PixelPlane> RemainingPoints::take_largest(std::uint32_t seed) {
   PlanesConfig const& config = view_.config;
-  auto const least = static_cast<std::size_t>(config.min_plane_pixels);
-  if (pixels_.count < least) {
+  if (pixels_.count < static_cast<std::size_t>(config.min_plane_pixels)) {
     return std::nullopt;
   }
   refresh_sample();
-  std::optional<FoundPlane> found =
+  std::optional<FoundPlane> const found =
       find_largest_plane(sample_, {config.sampling, config.max_angle_rad, config.confidence,
                                    config.max_hypotheses, config.scoring_points, seed});
   if (!found) {
     return std::nullopt;
   }
-  if (!eligible_.empty() && may_be_wall(*found)) {
-    found = fitted_to_segments(*std::move(found));
+  return take_found(*found);
+}
+
+std::vector<Plane> RemainingPoints::suggested() {
+  refresh_sample();
+  return segment_planes(view_, segments_, sample_, pixels_per_point_);
+}
+
+std::optional<PixelPlane> RemainingPoints::take(Plane const& suggested) {
+  double const angle_rad = view_.config.max_angle_rad;
+  bool const upright = is_upright(suggested);
+  int const least = upright ? view_.config.wall_min_pixels : view_.config.min_plane_pixels;
+  FoundPlane found = inliers_of(suggested, sample_, angle_rad);
+  if (static_cast<double>(found.inlier_count) * pixels_per_point_ < least) {
+    return std::nullopt;
   }
-  CountedPixels inliers = inliers_among(view_, found->plane, pixels_.pixels, view_.tolerance);
-  if (inliers.count < least) {
+  return take_found(upright ? fitted_to_segments(std::move(found))
+                            : refined(std::move(found), sample_, angle_rad));
+}
+
+std::optional<PixelPlane> RemainingPoints::take_found(FoundPlane const& found) {
+  CountedPixels inliers = inliers_among(view_, found.plane, pixels_.pixels, view_.tolerance);
+  if (inliers.count < static_cast<std::size_t>(view_.config.min_plane_pixels)) {
     return std::nullopt;
   }
   pixels_.remove(inliers);
-  sample_.remove(found->inliers);
-  return oriented(found->plane, std::move(inliers));
+  sample_.remove(found.inliers);
+  return oriented(found.plane, std::move(inliers));
 }
 
-bool RemainingPoints::may_be_wall(FoundPlane const& found) const {
-  Eigen::Vector3d const normal_world = view_.T_world_camera.rotation() * found.plane.normal;
-  double const pixels = static_cast<double>(found.inlier_count) *
-                        static_cast<double>(pixels_.count) / static_cast<double>(sample_.size());
-  return std::abs(normal_world.z()) < view_.config.wall_max_normal_z &&
-         pixels >= view_.config.wall_min_pixels;
+bool RemainingPoints::is_upright(Plane const& plane_camera) const {
+  Eigen::Vector3d const normal_world = view_.T_world_camera.rotation() * plane_camera.normal;
+  return std::abs(normal_world.z()) < view_.config.wall_max_normal_z;
 }
 
 FoundPlane RemainingPoints::fitted_to_segments(FoundPlane found) const {
@@ -148,6 +163,7 @@ void RemainingPoints::refresh_sample() {
     return;
   }
   sample_ = sample_of(pixels_, most, view_.cloud, view_.normals, view_.tolerance);
+  pixels_per_point_ = static_cast<double>(pixels_.count) / static_cast<double>(sample_.size());
 }
 
 /// With the normal up.

@@ -12,13 +12,19 @@
 namespace credo {
 
 /// What no plane has taken yet (thesis algorithm 2). Planes are found and fitted on a sample of it,
-/// then every pixel is asked.
+/// then every pixel is asked. Where there are segments, these suggest planes; else the largest
+/// one of all is looked for, time and again.
 class RemainingPoints {
 public:
   RemainingPoints(PlaneView const& view, Segments const& segments, CountedPixels pixels);
 
   /// Takes the largest plane out; none once it has fewer pixels than a plane must have.
   std::optional<PixelPlane> take_largest(std::uint32_t seed);
+
+  /// Planes that segments suggest, each to be taken in turn: see segment_planes().
+  [[nodiscard]] std::vector<Plane> suggested();
+  /// Takes one of these out, fitted to all that lies in it; none where too little is left of it.
+  std::optional<PixelPlane> take(Plane const& suggested);
 
   /// Fits what a floor or wall has taken to the segments: all of those that it holds most of, as
   /// far as they keep near, and nothing of those that it holds little of.
@@ -34,8 +40,9 @@ private:
     return static_cast<std::size_t>(segments_.labels[pixel]);
   }
   void refresh_sample();
-  /// By its direction and what the sample says of its size.
-  [[nodiscard]] bool may_be_wall(FoundPlane const& found) const;
+  [[nodiscard]] bool is_upright(Plane const& plane_camera) const;
+  /// Takes out the pixels of a plane that has been found in the sample.
+  std::optional<PixelPlane> take_found(FoundPlane const& found);
   /// Fitted to the segment that has most of its points in it, and to those that are coplanar with
   /// that one: a plane laid through a wall and the door before it, between both, turns to one.
   [[nodiscard]] FoundPlane fitted_to_segments(FoundPlane found) const;
@@ -60,6 +67,8 @@ private:
   /// segments.
   std::vector<std::uint32_t> eligible_;
   PlaneSearchPoints sample_;
+  /// As it was drawn.
+  double pixels_per_point_ = 1.0;
 };
 
 }  // namespace credo

@@ -16,12 +16,12 @@ constexpr std::size_t kEvery = 11;
 constexpr double kLeastPart = 0.1;
 
 template <typename Visit>
-void for_some(CountedPixels const& pixels, Visit const& visit) {
-  pixels.pixels.for_each([&](std::size_t i) {
-    if (i % kEvery == 0) {
+void for_some(PlaneView const& view, CountedPixels const& pixels, Visit const& visit) {
+  for (std::size_t i = 0; i < view.cloud.size(); i += kEvery) {
+    if (pixels.pixels.contains(i)) {
       visit(i);
     }
-  });
+  }
 }
 
 /// Where pixels are from left to right, however the camera is turned: the tangent of the angle from
@@ -70,9 +70,10 @@ Strips counted_strips(PlaneView const& view, PixelPlane const& plane, CountedPix
   Bearings const bearing(view);
   float least = std::numeric_limits<float>::infinity();
   float most = -least;
-  for_some(plane.inliers, [&](std::size_t i) {
-    least = std::min(least, bearing(i));
-    most = std::max(most, bearing(i));
+  for_some(view, plane.inliers, [&](std::size_t i) {
+    float const tangent = bearing(i);
+    least = std::min(least, tangent);
+    most = std::max(most, tangent);
   });
   // A little less than all strips, so that the rightmost pixels are in the last.
   float const strips_per_tangent =
@@ -89,19 +90,22 @@ Strips counted_strips(PlaneView const& view, PixelPlane const& plane, CountedPix
       plane.world.normal.cross(Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Vector3f const along =
       (view.T_world_camera.rotation().conjugate() * along_world).cast<float>();
-  for_some(plane.inliers, [&](std::size_t i) {
+  for_some(view, plane.inliers, [&](std::size_t i) {
     Strip& strip = strip_of(i);
     float const along_m = along.dot(view.cloud.at(i));
     ++strip.shown;
     strip.low_m = std::min(strip.low_m, along_m);
     strip.high_m = std::max(strip.high_m, along_m);
   });
-  for_some(behind, [&](std::size_t i) {
+  for_some(view, behind, [&](std::size_t i) {
     Strip& strip = strip_of(i);
-    bool const is_parallel = std::abs(normal.dot(view.normals.at(i))) >= kParallelCosine;
     float const depth_m = std::abs(normal.dot(view.cloud.at(i)) - offset_m);
     ++strip.behind;
-    strip.backed += is_parallel && depth_m <= kFurnitureDepth_m ? 1 : 0;
+    // Most lie deeper: their normals need not be fetched.
+    if (depth_m <= kFurnitureDepth_m &&
+        std::abs(normal.dot(view.normals.at(i))) >= kParallelCosine) {
+      ++strip.backed;
+    }
   });
   return strips;
 }

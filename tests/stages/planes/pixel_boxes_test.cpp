@@ -67,6 +67,30 @@ TEST(PixelBoxes, LeaveNoInlierOutOnEveryInstructionSet) {
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
+TEST(PixelBoxes, TellWhatLiesBehindToTheBit) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::size_t words = 0;
+  std::size_t open_words = 0;
+  for (unsigned k = 0; k < 200; ++k) {
+    OrganizedCloud const cloud = some_cloud(static_cast<int>(40 * (k % 6)), 61, k);
+    PixelSet const valid = valid_pixels(cloud);
+    Plane const plane{Eigen::Vector3d(unit(random), unit(random), unit(random)).normalized(),
+                      2.0 * unit(random)};
+    PlaneTolerance const tolerance{0.01F, 4.0F * static_cast<float>(k % 2), 0.0F};
+    auto [behind, open] = PixelBoxes(cloud).behind(plane, valid, tolerance);
+    behind.insert(pixels_behind(plane, cloud, open, tolerance));
+    CountedPixels const all = pixels_behind(plane, cloud, valid, tolerance);
+    EXPECT_EQ(behind.count, all.count);
+    EXPECT_TRUE(std::ranges::equal(behind.pixels.words(), all.pixels.words()));
+    for (std::size_t w = 0; w < valid.words().size(); ++w) {
+      words += valid.words()[w] != 0 ? 1 : 0;
+      open_words += open.words()[w] != 0 ? 1 : 0;
+    }
+  }
+  EXPECT_LT(4 * open_words, words);
+}
+
 TEST(PixelBoxes, KeepWhatLiesOnTheLimitToTheBit) {
   OrganizedCloud cloud(64, 1);
   float const step_m = 0.1F;
