@@ -18,7 +18,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -27,6 +26,7 @@
 #include <set>
 #include <vector>
 
+#include "cpu_time.hpp"
 #include "eval/evaluation.hpp"
 #include "io/pcd.hpp"
 #include "stages/segments/segments.hpp"
@@ -75,18 +75,6 @@ std::vector<TableTop> read_table_tops() {
     }
   }
   return tops;
-}
-
-double thread_cpu_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
-}
-
-double median(std::vector<double> values) {
-  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Any numbers as labels of segments; `none` is no segment.

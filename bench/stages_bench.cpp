@@ -10,7 +10,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -19,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include "cpu_time.hpp"
 #include "io/dataset.hpp"
 #include "stages/capture/level.hpp"
 #include "stages/clustering/clustering.hpp"
@@ -71,18 +71,6 @@ std::vector<Scene> osd() {
     scenes.push_back({frame, find_level({&frame, 1}, PoseConfig{})});
   }
   return scenes;
-}
-
-double thread_cpu_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
-}
-
-double median(std::vector<double> values) {
-  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 using Times = std::array<double, kStages>;

@@ -6,7 +6,6 @@
 namespace credo::segments {
 
 Limits limits_for(double focal_px, SegmentsConfig const& config) {
-  constexpr double kReferenceFocal_px = 525.0;
   double const scale = focal_px / kReferenceFocal_px;
   auto const length_px = [&](double at_reference_px, int most_px) {
     auto const scaled = static_cast<int>(std::lround(at_reference_px * scale));

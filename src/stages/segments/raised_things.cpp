@@ -296,7 +296,7 @@ std::uint32_t take_off(Raised const& raised, PaddedGrid<float> const& heights, s
 
 Segments with_raised_things(Segments segments, Grid<float> const& depth_m, double focal_px,
                             SegmentsConfig const& config) {
-  double const scale = focal_px / 525.0;
+  double const scale = focal_px / kReferenceFocal_px;
   auto const least_px =
       static_cast<std::size_t>(std::max(1.0, std::round(config.raised_min_pixels * scale * scale)));
   PaddedGrid<float> const heights = segments::relief(segments, depth_m, focal_px, config);

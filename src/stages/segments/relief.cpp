@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -45,7 +46,7 @@ public:
         quantum_per_m_(config.quantum_per_m),
         raised_quanta_(config.raised_quanta),
         surfaces_(flat_surfaces(segments, depth_m, config.quantum_per_m,
-                                kSurface_px * focal_px / 525.0 * focal_px / 525.0)),
+                                kSurface_px * std::pow(focal_px / kReferenceFocal_px, 2))),
         runs_(depth_m.width()),
         run_heights_(static_cast<std::size_t>(depth_m.width()) + 2 * kMargin_px) {}
 

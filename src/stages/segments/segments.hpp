@@ -6,8 +6,11 @@
 
 namespace credo {
 
-/// Segments by convexity in inverse depth. Lengths in pixels are those of a camera of 525 px focal
-/// length; others are scaled. Heights are in quanta of inverse depth.
+/// Of the camera that lengths in pixels are told for.
+inline constexpr double kReferenceFocal_px = 525.0;
+
+/// Segments by convexity in inverse depth. Lengths in pixels are those of a camera of that focal
+/// length; for others they are scaled. Heights are in quanta of inverse depth.
 struct SegmentsConfig {
   /// Without, clusters are grown from points and normals (thesis 3.3).
   bool enabled = true;

@@ -13,6 +13,7 @@
 
 #include "core/runs.hpp"
 #include "stages/segments/label_runs.hpp"
+#include "stages/segments/numbering.hpp"
 #include "stages/segments/outlines.hpp"
 
 namespace credo {
@@ -143,7 +144,7 @@ public:
 
 private:
   [[nodiscard]] double scaled(double at_reference_px) const {
-    return at_reference_px * intrinsics_.fx_px / 525.0;
+    return at_reference_px * intrinsics_.fx_px / kReferenceFocal_px;
   }
   [[nodiscard]] Outline const& outline(std::int32_t label) const {
     return outlines_[static_cast<std::size_t>(label)];
@@ -223,7 +224,7 @@ private:
     if (pixels < 1.0) {
       return 0.0;
     }
-    Pixel const centre = outline(parts.front()).box.first;
+    Pixel const origin = outline(parts.front()).box.first;
     QuadraticFit fit;
     std::vector<double> quanta;
     for (std::int32_t const part : parts) {
@@ -232,7 +233,7 @@ private:
         for (int u = begin; u < end; ++u) {
           quanta.push_back(quanta_at({u, v}));
         }
-        fit.add(begin - centre.u, v - centre.v, quanta);
+        fit.add(begin - origin.u, v - origin.v, quanta);
       });
     }
     return fit.bend(std::sqrt(pixels));
@@ -332,33 +333,21 @@ private:
 Segments join_parts(Segments segments, Grid<float> const& depth_m,
                     CameraIntrinsics const& intrinsics,
                     std::optional<Eigen::Vector3d> const& up_camera, SegmentsConfig const& config) {
-  Labels const root = PartJoiner(segments, depth_m, intrinsics, up_camera, config).joined();
-  // Numbered anew, by the first pixel of each.
-  Labels number(root.size(), 0);
-  std::vector<std::uint32_t> counts;
+  segments::Numbering numbering(
+      PartJoiner(segments, depth_m, intrinsics, up_camera, config).joined());
   LabelRuns runs(segments.labels.width());
   for (int v = 0; v < segments.labels.height(); ++v) {
     std::span<std::int32_t> const row = segments.labels.row(v);
     runs.find(row);
-    std::size_t end = 0;
-    for (std::size_t begin = 0; begin < row.size(); begin = end) {
+    for (std::size_t begin = 0, end = 0; begin < row.size(); begin = end) {
       end = runs.end(begin);
-      if (row[begin] == 0) {
-        continue;
-      }
-      auto const whole = static_cast<std::size_t>(root[static_cast<std::size_t>(row[begin])]);
-      if (number[whole] == 0) {
-        counts.push_back(0);
-        number[whole] = static_cast<std::int32_t>(counts.size());
-      }
-      counts[static_cast<std::size_t>(number[whole] - 1)] +=
-          static_cast<std::uint32_t>(end - begin);
-      if (row[begin] != number[whole]) {
-        std::ranges::fill(row.subspan(begin, end - begin), number[whole]);
+      std::int32_t const number = numbering.number(row[begin], end - begin);
+      if (row[begin] != number) {
+        std::ranges::fill(row.subspan(begin, end - begin), number);
       }
     }
   }
-  segments.pixel_counts = std::move(counts);
+  segments.pixel_counts = std::move(numbering).pixel_counts();
   return segments;
 }
 

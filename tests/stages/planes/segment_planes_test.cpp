@@ -6,43 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
 #include "stages/planes/plane_sample.hpp"
-#include "support/world_scene.hpp"
+#include "stages/planes/small_shots.hpp"
 
 namespace credo::test {
 namespace {
-
-using SegmentOf = std::function<std::int32_t(Eigen::Vector3d const&)>;
-
-/// The pictures here have a quarter of the pixels that the default is made for.
-PlanesConfig small_planes() {
-  PlanesConfig config;
-  config.min_plane_pixels = 400;
-  config.wall_min_pixels = 1000;
-  return config;
-}
-
-Eigen::Vector3d position_m(Shot const& shot, std::size_t i) {
-  return shot.T_world_camera * shot.frame.cloud_camera.at(i).cast<double>();
-}
-
-/// Each pixel belongs to the segment that its world position tells.
-Segments segments_of(Shot const& shot, SegmentOf const& segment_of) {
-  OrganizedCloud const& cloud = shot.frame.cloud_camera;
-  Segments segments{
-      Grid<std::int32_t>(cloud.width(), cloud.height()), std::vector<std::uint32_t>(8, 0), {}};
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.valid(i)) {
-      segments.labels[i] = segment_of(position_m(shot, i));
-      ++segments.pixel_counts[static_cast<std::size_t>(segments.labels[i] - 1)];
-    }
-  }
-  return segments;
-}
 
 /// In the world, normals up or towards +x or +y.
 std::vector<Plane> suggested(Shot const& shot, Segments const& segments, bool floor_at_zero) {

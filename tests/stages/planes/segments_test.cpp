@@ -3,45 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "stages/planes/planes.hpp"
-#include "support/world_scene.hpp"
+#include "stages/planes/small_shots.hpp"
 
 namespace credo::test {
 namespace {
 
-/// The pictures here have a quarter of the pixels that the default is made for.
-PlanesConfig small_planes() {
-  PlanesConfig config;
-  config.min_plane_pixels = 400;
-  config.wall_min_pixels = 1000;
-  return config;
-}
-
-/// World position of a pixel.
-Eigen::Vector3d position_m(Shot const& shot, std::size_t i) {
-  return shot.T_world_camera * shot.frame.cloud_camera.at(i).cast<double>();
-}
-
-/// A shot whose pixels belong to the segments that `segment_of` tells by their position.
-Segmentation segmented(Shot const& shot,
-                       std::function<std::int32_t(Eigen::Vector3d const&)> const& segment_of) {
+Segmentation segmented(Shot const& shot, SegmentOf const& segment_of) {
   Segmentation segmentation = shot.unassigned();
-  Grid<std::int32_t>& labels = segmentation.segments.labels;
-  labels = Grid<std::int32_t>(shot.frame.cloud_camera.width(), shot.frame.cloud_camera.height());
-  segmentation.segments.pixel_counts.assign(8, 0);
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (shot.frame.cloud_camera.valid(i)) {
-      labels[i] = segment_of(position_m(shot, i));
-      ++segmentation.segments.pixel_counts[static_cast<std::size_t>(labels[i] - 1)];
-    }
-  }
+  segmentation.segments = segments_of(shot, segment_of);
   return segmentation;
 }
 
-Segmentation planes_of(Shot const& shot,
-                       std::function<std::int32_t(Eigen::Vector3d const&)> const& segment_of,
+Segmentation planes_of(Shot const& shot, SegmentOf const& segment_of,
                        PlanesConfig const& config = small_planes()) {
   return extract_planes(shot.frame, shot.normals, segmented(shot, segment_of), config);
 }

@@ -5,18 +5,10 @@
 #include <cmath>
 
 #include "stages/planes/planes.hpp"
-#include "support/world_scene.hpp"
+#include "stages/planes/small_shots.hpp"
 
 namespace credo::test {
 namespace {
-
-/// The pictures here have a quarter of the pixels that the default is made for.
-PlanesConfig small_planes() {
-  PlanesConfig config;
-  config.min_plane_pixels = 400;
-  config.wall_min_pixels = 1000;
-  return config;
-}
 
 /// Whether a wall is found at y = 2, from 1.3 m above the floor: the view is 2.2 m wide there, and
 /// reaches from 0.5 m to 2.1 m.

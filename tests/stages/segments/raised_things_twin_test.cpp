@@ -7,13 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "io/image.hpp"
-#include "io/pcd.hpp"
 #include "stages/segments/depth_images.hpp"
 #include "stages/segments/raised_things.hpp"
+#include "stages/segments/recorded_depths.hpp"
 #include "stages/segments/table.hpp"
 #include "support/literal_raised_things.hpp"
-#include "support/recordings.hpp"
 
 namespace credo {
 namespace {
@@ -128,11 +126,9 @@ TEST(RaisedThingsTwin, NoiseAndSmallImages) {
 
 TEST(RaisedThingsTwin, TableTops) {
   CREDO_REQUIRE_RECORDING("osd");
-  for (auto const& entry : std::filesystem::directory_iterator(test::recordings() / "osd")) {
-    if (entry.path().extension() == ".pcd") {
-      SCOPED_TRACE(entry.path().filename());
-      expect_twin(read_pcd(entry.path(), CloudAxes::kOptical, 10.0).cloud_camera.z);
-    }
+  for (std::filesystem::path const& file : test::table_tops()) {
+    SCOPED_TRACE(file.filename());
+    expect_twin(test::table_top_depth_m(file));
   }
 }
 
@@ -140,13 +136,7 @@ TEST(RaisedThingsTwin, Kitchen) {
   CREDO_REQUIRE_RECORDING("kitchen");
   for (std::string const number : {"000000", "000100", "000160", "000250", "000400"}) {
     SCOPED_TRACE(number);
-    Grid<std::uint16_t> const counts =
-        read_png16(test::recordings() / "kitchen" / ("frame-" + number + ".depth.png"));
-    Grid<float> depth_m(counts.width(), counts.height());
-    std::ranges::transform(counts, depth_m.begin(), [](std::uint16_t mm) {
-      return mm == 65535 ? 0.0F : static_cast<float>(mm) * 0.001F;
-    });
-    expect_twin(depth_m);
+    expect_twin(test::kitchen_depth_m(number));
   }
 }
 

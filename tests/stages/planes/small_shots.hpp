@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/segments.hpp"
+#include "stages/planes/planes.hpp"
+#include "support/world_scene.hpp"
+
+namespace credo::test {
+
+/// The pictures of the tests have a quarter of the pixels that the default is made for.
+inline PlanesConfig small_planes() {
+  PlanesConfig config;
+  config.min_plane_pixels = 400;
+  config.wall_min_pixels = 1000;
+  return config;
+}
+
+/// World position of a pixel.
+inline Eigen::Vector3d position_m(Shot const& shot, std::size_t i) {
+  return shot.T_world_camera * shot.frame.cloud_camera.at(i).cast<double>();
+}
+
+/// The segment, from 1 to 8, that a world position belongs to.
+using SegmentOf = std::function<std::int32_t(Eigen::Vector3d const&)>;
+
+inline Segments segments_of(Shot const& shot, SegmentOf const& segment_of) {
+  OrganizedCloud const& cloud = shot.frame.cloud_camera;
+  Segments segments{
+      Grid<std::int32_t>(cloud.width(), cloud.height()), std::vector<std::uint32_t>(8, 0), {}};
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.valid(i)) {
+      segments.labels[i] = segment_of(position_m(shot, i));
+      ++segments.pixel_counts[static_cast<std::size_t>(segments.labels[i] - 1)];
+    }
+  }
+  return segments;
+}
+
+}  // namespace credo::test
