@@ -118,6 +118,90 @@ TEST(JoinParts, WhatTheImageCutsOffIsNoPart) {
   }
 }
 
+/// Rectangles before a background 1.5 m away, segment 1, each a segment of its own.
+class Schematic {
+public:
+  Schematic() : depth_m_(200, 150, 1.5F) { segments_.labels = Grid<std::int32_t>(200, 150, 1); }
+
+  /// Columns and rows from first to before last.
+  template <typename Depth>
+  void add(Pixel first, Pixel last, Depth const& depth_m) {
+    ++count_;
+    for (int v = first.v; v < last.v; ++v) {
+      for (int u = first.u; u < last.u; ++u) {
+        segments_.labels[Pixel{u, v}] = count_;
+        depth_m_[Pixel{u, v}] = static_cast<float>(depth_m(Pixel{u, v}));
+      }
+    }
+  }
+
+  /// Whether segments 2 and 3 become one.
+  [[nodiscard]] bool joins(std::optional<Vector3d> const& up) const {
+    Segments segments = segments_;
+    segments.pixel_counts.assign(static_cast<std::size_t>(count_), 0);
+    for (std::int32_t const label : segments.labels) {
+      ++segments.pixel_counts[static_cast<std::size_t>(label - 1)];
+    }
+    Segments const joined = join_parts(segments, depth_m_, {525.0, 525.0, 99.5, 74.5}, up, {});
+    std::set<std::int32_t> labels;
+    for (std::size_t i = 0; i < joined.labels.size(); ++i) {
+      if (segments.labels[i] == 2 || segments.labels[i] == 3) {
+        labels.insert(joined.labels[i]);
+      }
+    }
+    return labels.size() == 1;
+  }
+
+private:
+  Grid<float> depth_m_;
+  Segments segments_;
+  std::int32_t count_ = 1;
+};
+
+double front(Pixel) {
+  return 1.0;
+}
+double flat_inside(Pixel) {
+  return 1.1;
+}
+/// Deepest in the middle: it bends by 30 quanta to its ends.
+double hollow_inside(Pixel p) {
+  double const from_middle = (p.u - 99.5) / 40.0;
+  return 1.0 / (1.0 / 1.12 + 30.0 * 0.00287 * from_middle * from_middle);
+}
+
+/// A vessel's front, and what is seen over it.
+template <typename Depth>
+Schematic vessel(Depth const& inside_m, int front_rows = 30) {
+  Schematic picture;
+  picture.add({60, 70}, {140, 70 + front_rows}, front);
+  picture.add({60, 50}, {140, 70}, inside_m);
+  return picture;
+}
+
+TEST(JoinParts, AnInsideIsHollowNotTooLargeAndBehindNothingElse) {
+  EXPECT_TRUE(vessel(hollow_inside).joins(std::nullopt));
+  EXPECT_FALSE(vessel(flat_inside).joins(std::nullopt)) << "a box behind the front";
+  EXPECT_FALSE(vessel(hollow_inside, 4).joins(std::nullopt)) << "more than four times its front";
+  Schematic behind_another = vessel(hollow_inside);
+  behind_another.add({50, 45}, {70, 70}, [](Pixel) { return 0.8; });
+  EXPECT_FALSE(behind_another.joins(std::nullopt)) << "something else hides a part of it";
+}
+
+TEST(JoinParts, AnAttachmentIsSmallAndTouchesWhereItMeets) {
+  Vector3d const up(0, -1, 0);
+  auto const body_with = [](Pixel last, auto const& handle_m) {
+    Schematic picture;
+    picture.add({60, 70}, {140, 100}, front);
+    picture.add({140, 74}, last, handle_m);
+    return picture;
+  };
+  EXPECT_TRUE(body_with({152, 92}, front).joins(up));
+  EXPECT_FALSE(body_with({180, 92}, front).joins(up)) << "more than a quarter of it";
+  EXPECT_FALSE(body_with({152, 92}, [](Pixel p) { return p.v < 86 ? 0.9 : 1.0; }).joins(up))
+      << "in front of it, but for a corner";
+}
+
 TEST(JoinParts, TheResultIsNumberedInRasterOrder) {
   Table table(0.9);
   table.add_carton(0.0, 0.0, 0.2, 0.14);
