@@ -16,8 +16,8 @@ namespace credo::test {
 namespace {
 
 /// In the world, normals up or towards +x or +y.
-std::vector<Plane> suggested(Shot const& shot, Segments const& segments, bool floor_at_zero) {
-  PlanesConfig const config = small_planes();
+std::vector<Plane> suggested(Shot const& shot, Segments const& segments, bool floor_at_zero,
+                             PlanesConfig const& config = small_planes()) {
   OrganizedCloud const& cloud = shot.frame.cloud_camera;
   CountedPixels valid = pixels_where(cloud.size(), [&](std::size_t i) { return cloud.valid(i); });
   PlaneView const view{cloud,
@@ -111,6 +111,19 @@ TEST(SegmentPlanes, AreSortedBySize) {
     ASSERT_FALSE(planes.empty());
     EXPECT_EQ(planes[0].normal.z() > 0.5, pitch_rad > 0.5);
   }
+}
+
+TEST(SegmentPlanes, OfAWallThatIsSeenInPieces) {
+  Shot const shot = shot_of(WorldScene().with_wall(3.0), camera_looking_along_y(1.3, 0.1));
+  // Each piece is less than half of what a plane must have, together they are enough.
+  auto const piece_of = [](Eigen::Vector3d const& p) {
+    return 1 + std::clamp(static_cast<int>(std::floor((p.x() + 2.0) * 2.0)), 0, 7);
+  };
+  Segments const segments = segments_of(shot, piece_of);
+  PlanesConfig config = small_planes();
+  config.min_plane_pixels =
+      2 * static_cast<int>(*std::ranges::max_element(segments.pixel_counts)) + 1;
+  EXPECT_TRUE(has_plane(suggested(shot, segments, true, config), {Eigen::Vector3d::UnitY(), 3.0}));
 }
 
 TEST(SegmentPlanes, OfNothingAreNone) {

@@ -128,6 +128,27 @@ TEST(PlanesOfSegments, WhatFacesElsewhereIsThePartOfAnotherWall) {
   }
 }
 
+TEST(PlanesOfSegments, WhatAWallGivesBackIsLeftForTheNext) {
+  // Where two walls meet, each reaches the other's pixels by distance.
+  WorldScene scene = WorldScene().with_wall(3.0);
+  scene.with_box({1.2, -5.0, 0.0}, {1.3, 3.0, 2.6});
+  Shot const shot = shot_of(scene, camera_looking_along_y(1.3, 0.1));
+  PlanesConfig by_distance = small_planes();
+  by_distance.max_angle_rad = 3.15;
+  auto const is_beside = [](Eigen::Vector3d const& p) {
+    return p.x() > 1.2 - 1e-3 && p.y() < 3.0 - 1e-3;
+  };
+  Segmentation const result = planes_of(
+      shot, [&](Eigen::Vector3d const& p) { return is_beside(p) ? 2 : 1; }, by_distance);
+  ASSERT_EQ(result.walls.size(), 2U);
+  for (std::size_t i = 0; i < result.labels.size(); ++i) {
+    if (shot.frame.cloud_camera.valid(i)) {
+      bool const beside = is_beside(position_m(shot, i));
+      ASSERT_EQ(result.labels[i], result.walls[beside ? 1 : 0].label) << "pixel " << i;
+    }
+  }
+}
+
 TEST(PlanesOfSegments, AWallAndADoorBeforeItAreNotOnePlaneBetweenBoth) {
   // Along a corridor: farther on, noise hides that the door stands before the wall.
   WorldScene scene = WorldScene().with_floor();
