@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "core/grid.hpp"
 
@@ -20,6 +21,15 @@ struct VectorGrid {
   /// All pixels invalid.
   VectorGrid(int width, int height)
       : x(width, height, kNaN), y(width, height, kNaN), z(width, height, kNaN) {}
+
+  /// See Grid::unset().
+  [[nodiscard]] static VectorGrid unset(int width, int height) {
+    VectorGrid grid;
+    grid.x = Grid<float>::unset(width, height);
+    grid.y = Grid<float>::unset(width, height);
+    grid.z = Grid<float>::unset(width, height);
+    return grid;
+  }
 
   [[nodiscard]] int width() const { return x.width(); }
   [[nodiscard]] int height() const { return x.height(); }
@@ -45,6 +55,7 @@ struct OrganizedCloud : VectorGrid {
 /// neighbourhood does not carry one.
 struct NormalMap : VectorGrid {
   using VectorGrid::VectorGrid;
+  explicit NormalMap(VectorGrid grid) : VectorGrid(std::move(grid)) {}
 };
 
 }  // namespace credo

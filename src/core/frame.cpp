@@ -13,8 +13,8 @@ OrganizedCloud cloud_from_depth(Grid<float> depth_m, CameraIntrinsics const& int
         static_cast<float>((u - intrinsics.cx_px) / intrinsics.fx_px);
   }
   OrganizedCloud cloud;
-  cloud.x = Grid<float>(width, height);
-  cloud.y = Grid<float>(width, height);
+  cloud.x = Grid<float>::unset(width, height);
+  cloud.y = Grid<float>::unset(width, height);
   for (int v = 0; v < height; ++v) {
     auto const y_per_z = static_cast<float>((v - intrinsics.cy_px) / intrinsics.fy_px);
     float* z = depth_m.row(v).data();

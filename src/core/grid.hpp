@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -16,6 +18,20 @@ struct Pixel {
   friend bool operator==(Pixel const&, Pixel const&) = default;
 };
 
+/// Leaves values without a constructor unset where none is given: who writes all of an image need
+/// not pay for zeros first.
+template <typename T>
+struct UnsetAllocator : std::allocator<T> {
+  template <typename U>
+  void construct(U* place) {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <typename U, typename... Args>
+  void construct(U* place, Args&&... args) {
+    std::construct_at(place, std::forward<Args>(args)...);
+  }
+};
+
 /// The one image container: width x height values, row-major, no padding.
 ///
 /// Depth, colour, points, normals and labels are grids side by side, not structs of everything.
@@ -29,12 +45,21 @@ public:
   Grid() = default;
   Grid(int width, int height, T const& value = T{})
       : width_(width), height_(height), data_(checked_count(width, height), value) {}
-  Grid(int width, int height, std::vector<T> data)
-      : width_(width), height_(height), data_(std::move(data)) {
+  Grid(int width, int height, std::vector<T> const& data)
+      : width_(width), height_(height), data_(data.begin(), data.end()) {
     if (data_.size() != checked_count(width, height)) {
       throw std::logic_error("Grid: " + std::to_string(data_.size()) + " values for " +
                              std::to_string(width) + "x" + std::to_string(height));
     }
+  }
+
+  /// Numbers in it are anything until they are written.
+  [[nodiscard]] static Grid unset(int width, int height) {
+    Grid grid;
+    grid.data_.resize(checked_count(width, height));
+    grid.width_ = width;
+    grid.height_ = height;
+    return grid;
   }
 
   [[nodiscard]] int width() const { return width_; }
@@ -91,7 +116,7 @@ private:
 
   int width_ = 0;
   int height_ = 0;
-  std::vector<T> data_;
+  std::vector<T, UnsetAllocator<T>> data_;
 };
 
 }  // namespace credo

@@ -19,28 +19,17 @@ HWY_BEFORE_NAMESPACE();
 namespace credo::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// As many points at once as doubles fit.
-using Doubles = hn::CappedTag<double, CellSums::kLanes>;
-using Floats = hn::Rebind<float, Doubles>;
-using Words = hn::RebindToUnsigned<Doubles>;
+using Floats = hn::CappedTag<float, CellSums::kLanes>;
+using Ints = hn::RebindToSigned<Floats>;
 using Vec = hn::Vec<Floats>;
 
-// Position along an axis, shifted to be positive: then truncation is the floor.
-HWY_INLINE hn::Vec<Words> cells_along_axis(Vec coordinate_m, double cells_per_m) {
-  Doubles const d;
-  constexpr double kHalfRange = 1 << 20;
-  auto const coordinate = hn::PromoteTo(d, coordinate_m);
-  auto const cell = hn::Add(hn::Mul(coordinate, hn::Set(d, cells_per_m)), hn::Set(d, kHalfRange));
-  auto const inside = hn::Min(hn::Max(cell, hn::Zero(d)), hn::Set(d, 2.0 * kHalfRange - 1.0));
-  auto const integers = hn::DemoteTo(hn::Rebind<std::int32_t, Doubles>(), inside);
-  return hn::PromoteTo(Words(), hn::BitCast(hn::Rebind<std::uint32_t, Doubles>(), integers));
-}
-
-// The cell of a point in one number, 21 bits an axis.
-HWY_INLINE hn::Vec<Words> cell_key(std::array<Vec, 3> const& point, double cells_per_m) {
-  return hn::Or(hn::ShiftLeft<42>(cells_along_axis(point[0], cells_per_m)),
-                hn::Or(hn::ShiftLeft<21>(cells_along_axis(point[1], cells_per_m)),
-                       cells_along_axis(point[2], cells_per_m)));
+// Position along an axis.
+HWY_INLINE hn::Vec<Ints> cells_along_axis(Vec coordinate_m, float cells_per_m) {
+  Floats const d;
+  Vec const cell = hn::Floor(hn::Mul(coordinate_m, hn::Set(d, cells_per_m)));
+  Vec const inside =
+      hn::Min(hn::Max(cell, hn::Set(d, CellSums::kFirstCell)), hn::Set(d, CellSums::kLastCell));
+  return hn::ConvertTo(Ints(), inside);
 }
 
 HWY_INLINE Vec moved(std::array<Vec, 3> const& point, std::array<float, 4> const& row) {
@@ -57,33 +46,42 @@ HWY_INLINE Vec zero_or_nan(std::array<Vec, 3> const& point) {
                  hn::Add(hn::Sub(point[1], point[1]), hn::Sub(point[2], point[2])));
 }
 
-// Moves the points, finds the keys of their cells (kNoCell where a coordinate is not finite) and
-// widens the bounds. The last vector may run over: what is there must be NaN.
-void place(CellSums::Chunk& chunk, std::size_t count, CellSums::Placement& placement) {
+// As many of `count` values as a vector holds; NaN where there are fewer.
+HWY_INLINE Vec some_of(float const* values, std::size_t count) {
   Floats const d;
-  auto const none = hn::Set(Words(), CellSums::kNoCell);
+  if (count >= hn::Lanes(d)) {
+    return hn::LoadU(d, values);
+  }
+  std::array<float, CellSums::kLanes> some;
+  some.fill(kNaN);
+  std::copy_n(values, count, some.data());
+  return hn::LoadU(d, some.data());
+}
+
+// Moves points, finds their cells (kNoCell where a coordinate is not finite) and widens the bounds.
+void place(PointSpans const& points, CellSums::Placement& placement, CellSums::Chunk& chunk) {
+  Floats const d;
+  Ints const di;
   std::array<Vec, 3> min;
   std::array<Vec, 3> max;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     min[axis] = hn::LoadU(d, placement.min[axis].data());
     max[axis] = hn::LoadU(d, placement.max[axis].data());
   }
+  std::size_t const count = points.x.size();
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    std::array<Vec, 3> point;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      point[axis] = hn::LoadU(d, chunk.points[axis].data() + i);
-    }
+    std::array<Vec, 3> point = {some_of(points.x.data() + i, count - i),
+                                some_of(points.y.data() + i, count - i),
+                                some_of(points.z.data() + i, count - i)};
     if (placement.moves) {
       point = {moved(point, placement.motion[0]), moved(point, placement.motion[1]),
                moved(point, placement.motion[2])};
     }
-    Vec const validity = zero_or_nan(point);
-    auto const finite = hn::Eq(validity, hn::Zero(d));
-    auto const finite_word =
-        hn::RebindMask(Words(), hn::Eq(hn::PromoteTo(Doubles(), validity), hn::Zero(Doubles())));
-    hn::StoreU(hn::IfThenElse(finite_word, cell_key(point, placement.cells_per_m), none), Words(),
-               chunk.keys.data() + i);
+    auto const finite = hn::Eq(zero_or_nan(point), hn::Zero(d));
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      auto const cell = cells_along_axis(point[axis], placement.cells_per_m);
+      hn::StoreU(hn::IfThenElse(hn::RebindMask(di, finite), cell, hn::Set(di, CellSums::kNoCell)),
+                 di, chunk.cells[axis].data() + i);
       hn::StoreU(point[axis], d, chunk.points[axis].data() + i);
       min[axis] = hn::Min(min[axis], hn::IfThenElse(finite, point[axis], min[axis]));
       max[axis] = hn::Max(max[axis], hn::IfThenElse(finite, point[axis], max[axis]));
@@ -103,12 +101,23 @@ namespace credo {
 
 HWY_EXPORT(place);
 
+namespace {
+
+/// A cell in one number, 21 bits an axis.
+std::uint64_t key_of(std::int32_t x, std::int32_t y, std::int32_t z) {
+  constexpr std::int32_t kHalfRange = 1 << 20;
+  auto const bits = [](std::int32_t cell) { return static_cast<std::uint64_t>(cell + kHalfRange); };
+  return (bits(x) << 42U) | (bits(y) << 21U) | bits(z);
+}
+
+}  // namespace
+
 CellSums::CellSums(float spacing_m) {
   if (!(spacing_m > 0.0F) || !std::isfinite(spacing_m)) {
     throw std::logic_error("thinning: spacing_m is " + std::to_string(spacing_m));
   }
   constexpr float kInf = std::numeric_limits<float>::infinity();
-  placement_.cells_per_m = 1.0 / static_cast<double>(spacing_m);
+  placement_.cells_per_m = 1.0F / spacing_m;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     placement_.min[axis].fill(kInf);
     placement_.max[axis].fill(-kInf);
@@ -159,20 +168,22 @@ void CellSums::grow() {
   }
 }
 
-void CellSums::add_chunk(Chunk& chunk, std::size_t count) {
-  auto& [x, y, z] = chunk.points;
-  for (std::size_t i = count; i % kLanes != 0; ++i) {
-    x[i] = y[i] = z[i] = kNaN;
-  }
-  HWY_DYNAMIC_DISPATCH(place)(chunk, count, placement_);
+void CellSums::add_chunk(PointSpans const& points) {
+  Chunk chunk;
+  HWY_DYNAMIC_DISPATCH(place)(points, placement_, chunk);
+  auto const& [x, y, z] = chunk.points;
+  auto const& [cell_x, cell_y, cell_z] = chunk.cells;
+  std::size_t const count = points.x.size();
   for (std::size_t i = 0; i < count;) {
-    std::uint64_t const key = chunk.keys[i];
-    if (key == kNoCell) {
+    std::int32_t const cx = cell_x[i];
+    std::int32_t const cy = cell_y[i];
+    std::int32_t const cz = cell_z[i];
+    if (cx == kNoCell) {
       ++i;
       continue;
     }
     // Neighbours in the image mostly share their cell: it is looked up once for all of them.
-    Cell& cell = cell_of(key);
+    Cell& cell = cell_of(key_of(cx, cy, cz));
     std::size_t const first = i;
     auto [sum_x, sum_y, sum_z] = cell.sum;
     do {
@@ -180,34 +191,32 @@ void CellSums::add_chunk(Chunk& chunk, std::size_t count) {
       sum_y += static_cast<double>(y[i]);
       sum_z += static_cast<double>(z[i]);
       ++i;
-    } while (i < count && chunk.keys[i] == key);
+    } while (i < count && ((cell_x[i] ^ cx) | (cell_y[i] ^ cy) | (cell_z[i] ^ cz)) == 0);
     cell.sum = {sum_x, sum_y, sum_z};
     cell.count += static_cast<double>(i - first);
   }
 }
 
 void CellSums::add(PointSpans const& points) {
-  Chunk chunk;
   for (std::size_t begin = 0; begin < points.x.size(); begin += kChunk) {
     std::size_t const count = std::min(kChunk, points.x.size() - begin);
-    std::copy_n(points.x.data() + begin, count, chunk.points[0].data());
-    std::copy_n(points.y.data() + begin, count, chunk.points[1].data());
-    std::copy_n(points.z.data() + begin, count, chunk.points[2].data());
-    add_chunk(chunk, count);
+    add_chunk({points.x.subspan(begin, count), points.y.subspan(begin, count),
+               points.z.subspan(begin, count)});
   }
 }
 
 void CellSums::add(std::span<Eigen::Vector3f const> points) {
-  Chunk chunk;
+  std::array<std::array<float, kChunk>, 3> axes;
+  auto& [x, y, z] = axes;
   for (std::size_t begin = 0; begin < points.size(); begin += kChunk) {
     std::size_t const count = std::min(kChunk, points.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
       Eigen::Vector3f const& point = points[begin + i];
-      chunk.points[0][i] = point.x();
-      chunk.points[1][i] = point.y();
-      chunk.points[2][i] = point.z();
+      x[i] = point.x();
+      y[i] = point.y();
+      z[i] = point.z();
     }
-    add_chunk(chunk, count);
+    add_chunk({{x.data(), count}, {y.data(), count}, {z.data(), count}});
   }
 }
 

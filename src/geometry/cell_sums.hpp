@@ -42,17 +42,19 @@ public:
   [[nodiscard]] Eigen::AlignedBox3f bounds() const;
 
   static constexpr std::size_t kChunk = 64;
-  static constexpr std::size_t kLanes = 4;
-  /// No key of a cell: keys have 63 bits.
-  static constexpr std::uint64_t kNoCell = ~std::uint64_t{0};
-  /// Coordinates of up to kChunk points, and the keys of their cells.
+  static constexpr std::size_t kLanes = 8;
+  static constexpr float kFirstCell = -(1 << 20);
+  static constexpr float kLastCell = (1 << 20) - 1;
+  /// Beyond all cells of an axis.
+  static constexpr std::int32_t kNoCell = 1 << 20;
+  /// Coordinates of up to kChunk points, and their cells, axis by axis.
   struct Chunk {
     std::array<std::array<float, kChunk>, 3> points;
-    std::array<std::uint64_t, kChunk> keys;
+    std::array<std::array<std::int32_t, kChunk>, 3> cells;
   };
   /// How a kernel places points; bounds lane by lane.
   struct Placement {
-    double cells_per_m = 0.0;
+    float cells_per_m = 0.0F;
     bool moves = false;
     // Rows of the matrix: rotation, then translation.
     std::array<std::array<float, 4>, 3> motion{};
@@ -63,7 +65,7 @@ public:
 private:
   // Sums in double, so that the mean of a few hundred thousand points keeps a float's precision.
   struct Cell {
-    std::uint64_t key = kNoCell;
+    std::uint64_t key = 0;
     double count = 0.0;
     std::array<double, 3> sum{};
 
@@ -73,7 +75,8 @@ private:
   Cell& cell_of(std::uint64_t key);
   [[nodiscard]] std::size_t slot_of(std::uint64_t key) const;
   void grow();
-  void add_chunk(Chunk& chunk, std::size_t count);
+  /// At most kChunk of them.
+  void add_chunk(PointSpans const& points);
 
   Placement placement_;
   std::vector<Cell> cells_;

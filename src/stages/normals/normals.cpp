@@ -117,7 +117,7 @@ NormalMap estimate_normals(OrganizedCloud const& cloud, CameraIntrinsics const& 
                            NormalsConfig const& config) {
   normals::FitParams const params = fit_params(intrinsics, config);
   normals::BlockImage const image = normals::make_block_image(cloud.z, params.tolerance);
-  NormalMap result(cloud.width(), cloud.height());
+  NormalMap result{VectorGrid::unset(cloud.width(), cloud.height())};
   constexpr int kRowsPerTask = 8;
   tbb::parallel_for(tbb::blocked_range<int>(0, image.height, kRowsPerTask), [&](auto const& rows) {
     RowWorker work(cloud.z, image, params, result);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,23 +20,25 @@ public:
   /// `segments` outlives this; empty ones have no pieces.
   explicit SegmentPieces(Segments const& segments)
       : segments_(segments),
-        begins_(
-            pixels_where(segments.labels.size(), [labels = segments.labels.data()](std::size_t i) {
-              return i == 0 || labels[i] != labels[i - 1];
-            })) {}
+        ends_(pixels_where(std::max<std::size_t>(segments.labels.size(), 1) - 1,
+                           [labels = segments.labels.data()](std::size_t i) {
+                             return labels[i] != labels[i + 1];
+                           })) {}
 
   [[nodiscard]] bool empty() const { return segments_.labels.empty(); }
 
   /// Calls `visit(segment, word, bits)` for pixels of one segment within one word, in raster order.
   template <typename Visit>
   void for_each(PixelSet const& pixels, Visit const& visit) const {
+    std::span<std::uint64_t const> const ends = ends_.pixels.words();
     for (std::size_t w = 0; w < pixels.words().size(); ++w) {
-      std::uint64_t const begins = begins_.pixels.words()[w];
+      // The image's last pixel may be a word of its own.
+      std::uint64_t const ends_here = w < ends.size() ? ends[w] : 0;
       for (std::uint64_t rest = pixels.words()[w]; rest != 0;) {
         auto const first = static_cast<std::size_t>(std::countr_zero(rest));
-        // The pixels up to where the next segment begins.
-        std::uint64_t const later = begins & (~std::uint64_t{1} << first);
-        std::uint64_t const mask = (later & -later) - 1;
+        // All pixels up to where this segment ends.
+        std::uint64_t const later = ends_here & (~std::uint64_t{0} << first);
+        std::uint64_t const mask = later ^ (later - 1);
         visit(static_cast<std::size_t>(segments_.labels[w * PixelSet::kWordBits + first]), w,
               rest & mask);
         rest &= ~mask;
@@ -69,8 +73,8 @@ public:
 
 private:
   Segments const& segments_;
-  /// Pixels before which, in raster order, is another segment's.
-  CountedPixels begins_;
+  /// Pixels after which, in raster order, comes another segment's.
+  CountedPixels ends_;
 };
 
 }  // namespace credo

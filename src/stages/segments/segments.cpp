@@ -19,7 +19,7 @@ namespace {
 /// Numbers what parts went into in raster order, and drops the margin.
 Segments numbered(segments::PartLabels const& labels, std::vector<std::int32_t> const& root) {
   Segments result;
-  result.labels = Grid<std::int32_t>(labels.width(), labels.height());
+  result.labels = Grid<std::int32_t>::unset(labels.width(), labels.height());
   segments::Numbering numbering(root);
   segments::LabelRuns runs(labels.width());
   for (int v = 0; v < labels.height(); ++v) {
