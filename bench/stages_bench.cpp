@@ -87,7 +87,7 @@ Times run(Scene const& scene) {
   if (scene.level.floor_found) {
     up_camera = segmentation.T_world_camera.rotation().inverse() * Eigen::Vector3d::UnitZ();
   }
-  segmentation.segments = segment_things(frame.cloud_camera.z, frame.intrinsics, up_camera, {});
+  segmentation.segments = segment_things(frame, up_camera, {});
   ends_ms[2] = thread_cpu_ms();
   segmentation = extract_planes(frame, normals, std::move(segmentation), {});
   ends_ms[3] = thread_cpu_ms();

@@ -20,6 +20,9 @@ FieldList fields(CaptureConfig& config) {
        {0, 1},
        "m",
        "metres per count of a 16-bit depth image; 0 = the layout's own"},
+      choice("color_registered", config.color_registered, {"auto", "yes", "no"},
+             "whether colour images are registered to depth; auto: clouds, the simulation and TUM "
+             "folders are, a sensor if it says so, others are not"),
       {"max_depth_m", &config.max_depth_m, {0.1, 100}, "m", "depth beyond this is invalid"},
       {"independent_frames",
        &config.independent_frames,
@@ -27,6 +30,12 @@ FieldList fields(CaptureConfig& config) {
        "",
        "each frame is a scene of its own: fresh belief, fresh level"},
   };
+}
+
+bool is_color_registered(CaptureConfig const& config, bool as_known) {
+  return config.color_registered == ColorRegistered::kAuto
+             ? as_known
+             : config.color_registered == ColorRegistered::kYes;
 }
 
 FieldList fields(PoseConfig& config) {

@@ -18,6 +18,14 @@ enum class CloudAxes : std::uint8_t {
   kYUpZBack,
 };
 
+/// Whether colour is registered to depth.
+enum class ColorRegistered : std::uint8_t {
+  /// As far as the source knows; what does not know is not.
+  kAuto,
+  kYes,
+  kNo,
+};
+
 /// What every source must be told, because recordings do not carry it.
 struct CaptureConfig {
   /// Used where the recording has no camera-intrinsics.txt; 0 = not given.
@@ -28,12 +36,17 @@ struct CaptureConfig {
   CloudAxes axes = CloudAxes::kAuto;
   /// Metres per count of a 16-bit depth image; 0 = the layout's own (0.001, TUM 0.0002).
   double depth_unit_m = 0.0;
+  /// Colour helps to tell things apart where it is registered to depth.
+  ColorRegistered color_registered = ColorRegistered::kAuto;
   /// Depth beyond this is taken as invalid.
   double max_depth_m = 10.0;
   /// Each frame is a scene of its own: fresh belief, fresh level.
   bool independent_frames = false;
 };
 FieldList fields(CaptureConfig& config);
+
+/// For a source that knows by itself whether its colour is registered.
+[[nodiscard]] bool is_color_registered(CaptureConfig const& config, bool as_known);
 
 /// Where camera poses come from.
 enum class PoseSource : std::uint8_t {

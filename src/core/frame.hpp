@@ -38,8 +38,10 @@ struct Frame {
   std::int64_t stamp_ns = 0;
   CameraIntrinsics intrinsics;
   OrganizedCloud cloud_camera;
-  /// Same size as the cloud, or empty where the source has no colour. Not necessarily registered.
+  /// Same size as the cloud, or empty where the source has no colour.
   Grid<Rgb> color;
+  /// Each pixel's colour is that of its point; otherwise it is seen from beside.
+  bool color_registered = false;
   /// Where the camera stood, in the frame that the pose source counts in (not necessarily level).
   Se3 T_source_camera;
 };

@@ -40,7 +40,7 @@ Segmentation with_segments(Frame const& frame, Segmentation segmentation,
   if (segmentation.floor_at_zero) {
     up_camera = segmentation.T_world_camera.rotation().inverse() * Eigen::Vector3d::UnitZ();
   }
-  segmentation.segments = segment_things(frame.cloud_camera.z, frame.intrinsics, up_camera, config);
+  segmentation.segments = segment_things(frame, up_camera, config);
   return segmentation;
 }
 

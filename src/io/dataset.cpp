@@ -90,6 +90,7 @@ private:
       frame->T_source_camera = pose_of(entry, frame_index);
       frame->cloud_camera = std::move(pictures.cloud_camera);
       frame->color = std::move(pictures.color);
+      frame->color_registered = is_color_registered(capture_, listing_.color_registered);
       return FramePtr(std::move(frame));
     } catch (FrameFault const& fault) {
       return FrameFailure{frame_index, fault.reason, fault.message};

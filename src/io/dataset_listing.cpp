@@ -150,6 +150,7 @@ DatasetListing list_tum(fs::path const& folder) {
   }
   DatasetListing listing;
   listing.depth_unit_m = kTumDepthUnitM;
+  listing.color_registered = true;
   listing.has_poses = trajectory.has_value();
   for (StampedFile const& image : depth) {
     DatasetEntry entry;
@@ -205,6 +206,7 @@ DatasetListing list_dataset(fs::path const& folder) {
     }
   }
   DatasetListing listing = list_clouds(files);
+  listing.color_registered = true;  // it comes with the points
   if (listing.entries.empty()) {
     throw InputError("dataset " + folder.string() +
                      ": no frames found; known are frame-NNNNNN.depth.png with .color.jpg|png, "

@@ -28,6 +28,8 @@ struct DatasetListing {
   double depth_unit_m = 0.001;
   /// Some frame has a pose: then every frame must.
   bool has_poses = false;
+  /// The layout has colour registered to depth.
+  bool color_registered = false;
   /// What a person should know about the recording.
   std::vector<std::string> warnings;
 };

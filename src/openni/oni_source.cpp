@@ -96,6 +96,7 @@ public:
       frame->intrinsics = intrinsics_;
       frame->cloud_camera = cloud_from_depth(depth(image), intrinsics_);
       frame->color = color_near(image.stamp_ns);
+      frame->color_registered = is_color_registered(capture_, false);
       frame->T_source_camera = pose_of(index, image.stamp_ns);
       return FramePtr(std::move(frame));
     } catch (Fault const& fault) {

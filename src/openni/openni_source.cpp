@@ -197,6 +197,11 @@ private:
     }
   }
 
+  /// What was asked for is not always done.
+  [[nodiscard]] bool registers() const {
+    return device_.getImageRegistrationMode() == openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
+  }
+
   FrameIndex next_index() { return FrameIndex{frames_++}; }
 
   /// Row by row, as the stride may be longer than a row; empty where the frame is not whole.
@@ -260,6 +265,7 @@ private:
     if (waiting_ != nullptr) {
       waiting_->index = next_index();
       waiting_->color = color_near(waiting_->stamp_ns);
+      waiting_->color_registered = is_color_registered(capture_, registers());
       ready_ = std::exchange(waiting_, nullptr);
     }
   }

@@ -56,6 +56,7 @@ SourceResult SimSource::next() {
   frame->cloud_camera =
       cloud_from_depth(measured_depth(view, scene, camera.sensor, seed_, index), frame->intrinsics);
   frame->color = std::move(view.color);
+  frame->color_registered = true;
   frame->T_source_camera =
       has_poses_ ? told_pose(camera, T_world_camera, since_s, seed_, index) : Se3{};
   return FramePtr(std::move(frame));

@@ -71,6 +71,24 @@ TEST_F(DatasetTest, TheConfigMaySayTheDepthUnit) {
                   static_cast<float>(some_depth()[5]) * 0.002F);
 }
 
+TEST_F(DatasetTest, TheConfigMaySayThatColourIsRegistered) {
+  write_three();
+  EXPECT_FALSE(next_frame(open())->color_registered);
+  CaptureConfig capture;
+  capture.color_registered = ColorRegistered::kYes;
+  EXPECT_TRUE(next_frame(open(capture))->color_registered);
+}
+
+TEST_F(DatasetTest, TheConfigMaySayThatColourIsNotRegistered) {
+  write_tum_images();
+  write_text(folder_ / "depth.txt", "10.0 d0.png\n");
+  write_text(folder_ / "rgb.txt", "10.0 c0.png\n");
+  EXPECT_TRUE(next_frame(open())->color_registered);
+  CaptureConfig capture;
+  capture.color_registered = ColorRegistered::kNo;
+  EXPECT_FALSE(next_frame(open(capture))->color_registered);
+}
+
 TEST_F(DatasetTest, WithoutIntrinsicsItWarnsOnce) {
   write_frame(0);
   write_frame(1);
@@ -145,6 +163,7 @@ TEST_F(DatasetTest, ReadsTheNumberedLayout) {
   FramePtr const frame = next_frame(opened);
   EXPECT_EQ(number(frame->index), 0);
   EXPECT_EQ(frame->color, some_color());
+  EXPECT_FALSE(frame->color_registered);
   EXPECT_FLOAT_EQ(frame->cloud_camera.z[0], static_cast<float>(some_depth()[0]) * 0.001F);
 }
 
@@ -166,6 +185,7 @@ TEST_F(DatasetTest, ReadsTheTumLayout) {
   EXPECT_EQ(second->stamp_ns, 10'100'000'000);
   EXPECT_NEAR(second->T_source_camera.translation().x(), 3.0, 1e-6);
   EXPECT_EQ(second->color[0], (Rgb{0, 0, 0}));
+  EXPECT_TRUE(second->color_registered);
 }
 
 TEST_F(DatasetTest, ATumFrameWithoutColourOrPoseInTimeIsLost) {
@@ -208,6 +228,7 @@ TEST_F(DatasetTest, ReadsCloudsInOrderOfTheirNames) {
   EXPECT_EQ(next_frame(opened)->cloud_camera.z[0], 1.0F);
   FramePtr const second = next_frame(opened);
   EXPECT_EQ(second->cloud_camera.z[0], 2.0F);
+  EXPECT_TRUE(second->color_registered);
   EXPECT_EQ(number(second->index), 1);
   EXPECT_EQ(second->stamp_ns, 33'333'333);
   EXPECT_TRUE(second->T_source_camera.matrix().isIdentity(0.0));

@@ -65,6 +65,7 @@ TEST_F(OniSource, PointsByTheFieldOfView) {
   EXPECT_FLOAT_EQ(frame->cloud_camera.z[1], 2.0F);
   EXPECT_FLOAT_EQ(frame->cloud_camera.x[1], static_cast<float>(0.5 / fx_px * 2.0));
   EXPECT_EQ((frame->color[{0, 0}]), (Rgb{255, 0, 0}));
+  EXPECT_FALSE(frame->color_registered);
 }
 
 TEST_F(OniSource, MirroredIsTurnedBack) {
@@ -81,9 +82,11 @@ TEST_F(OniSource, TheConfigGoesFirst) {
   capture.camera_fx_px = capture.camera_fy_px = 7.0;
   capture.camera_cx_px = capture.camera_cy_px = 0.25;
   capture.max_depth_m = 1.5;
+  capture.color_registered = ColorRegistered::kYes;
   FramePtr const frame = first(two_pixels(1), capture);
   EXPECT_EQ(frame->intrinsics, (CameraIntrinsics{7.0, 7.0, 0.25, 0.25}));
   EXPECT_TRUE(std::isnan(frame->cloud_camera.z[1])) << "too far";
+  EXPECT_TRUE(frame->color_registered);
   capture.camera_cy_px = 0;
   EXPECT_THROW(open(two_pixels(1), capture), InputError);
 }

@@ -36,6 +36,7 @@ TEST(SimSource, GivesAFrameEachPeriodFromTheFirstWaypointToTheLast) {
     EXPECT_NEAR((frame->T_source_camera.matrix() - expected.matrix()).norm(), 0, 1e-12);
     EXPECT_EQ(frame->intrinsics, (CameraIntrinsics{60.0, 62.0, 31.5, 23.5}));
     EXPECT_TRUE(frame->color.same_size(frame->cloud_camera.z));
+    EXPECT_TRUE(frame->color_registered);
   }
   for (int again = 0; again < 2; ++again) {
     EXPECT_TRUE(std::holds_alternative<EndOfSource>(source.next()));

@@ -80,6 +80,13 @@ FieldList crease_fields(SegmentsConfig& config) {
        "the inside and the outside of a vessel are one thing, and so is a thing with its handle, "
        "cap or "
        "neck"},
+      {"color_apart",
+       &config.color_apart,
+       {0, 1},
+       "",
+       "things without a crease between them come apart by colours that differ by more, in shares "
+       "of "
+       "red and green, where colour is registered; 0 leaves colour out"},
       {"raised_quanta",
        &config.raised_quanta,
        {0, 100},

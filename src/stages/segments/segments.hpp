@@ -38,6 +38,10 @@ struct SegmentsConfig {
   int min_pixels = 80;
   /// Joins the parts of one thing: see join_parts.
   bool join_parts = true;
+  /// Where colour is registered, what has no crease comes apart by colours that differ by more, as
+  /// distances of the shares of red and green in all light: see split_by_color. 0 leaves colour
+  /// out.
+  double color_apart = 0.1;
   /// What stands out of a flat surface by more is a thing that lies on it; 0 looks for none.
   double raised_quanta = 2.0;
   /// Smaller things are not looked for.

@@ -10,10 +10,16 @@
 
 namespace credo {
 
-/// A frame in things: `convex_segments`, then `join_parts` and `with_raised_things`, as far as
-/// `config` has them. `up_camera` is a unit vector in the camera frame, where it is known.
-[[nodiscard]] Segments segment_things(Grid<float> const& depth_m,
+/// A frame in things: `convex_segments`, then `split_by_color`, `join_parts` and
+/// `with_raised_things`, as far as `config` has them. `color` is registered, or empty. `up_camera`
+/// is a unit vector in the camera frame, where it is known.
+[[nodiscard]] Segments segment_things(Grid<float> const& depth_m, Grid<Rgb> const& color,
                                       CameraIntrinsics const& intrinsics,
+                                      std::optional<Eigen::Vector3d> const& up_camera,
+                                      SegmentsConfig const& config);
+
+/// The same for a frame, whose colour counts as far as it is registered.
+[[nodiscard]] Segments segment_things(Frame const& frame,
                                       std::optional<Eigen::Vector3d> const& up_camera,
                                       SegmentsConfig const& config);
 

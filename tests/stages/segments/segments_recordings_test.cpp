@@ -50,7 +50,7 @@ Scores table_top_scores(bool whole_things) {
     config.join_parts = whole_things;
     config.raised_quanta = whole_things ? config.raised_quanta : 0.0;
     Segments const segments = segment_things(
-        depth_m, {test::kTableTopFocal_px, test::kTableTopFocal_px}, std::nullopt, config);
+        depth_m, {}, {test::kTableTopFocal_px, test::kTableTopFocal_px}, std::nullopt, config);
     LabelMap labels(segments.labels.width(), segments.labels.height(), kUnassigned);
     std::ranges::transform(segments.labels, labels.begin(), [](std::int32_t label) {
       return label == 0 ? kUnassigned : static_cast<LabelCode>(kFirstStuff + label - 1);
