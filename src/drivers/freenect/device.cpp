@@ -56,11 +56,14 @@ oni::driver::StreamBase* KinectDevice::createStream(OniSensorType sensor) {
 }
 
 void KinectDevice::destroyStream(oni::driver::StreamBase* stream) {
+  // OpenNI closes a device without stopping its streams: none may deliver any more.
+  stream->stop();
   if (stream == depth_) {
     depth_ = nullptr;
   } else if (stream == color_) {
     color_ = nullptr;
   }
+  kinect_.wait_told();
   delete stream;
 }
 

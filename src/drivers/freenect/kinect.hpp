@@ -32,6 +32,8 @@ public:
   [[nodiscard]] bool lost() const { return state_->lost(); }
   /// Others have seen that it is unplugged.
   void set_lost() { state_->set_lost(); }
+  /// Returns once no sink is at work that was called before.
+  void wait_told() { state_->wait_told(); }
   [[nodiscard]] StreamCounts counts(StreamKind kind) const { return state_->counts(kind); }
 
 private:

@@ -197,6 +197,12 @@ void KinectThread::abandon() {
   lost_ = true;
 }
 
+void KinectThread::wait_told() {
+  if (!is_this_thread()) {
+    std::unique_lock const lock(telling_, kTellingPatience);
+  }
+}
+
 StreamCounts KinectThread::counts(StreamKind kind) const {
   Stream const& one = streams_.at(static_cast<std::size_t>(kind));
   return {one.lost_packets, one.dropped_frames, one.stalls};

@@ -66,6 +66,8 @@ public:
   void end() { ending_ = true; }
   /// The thread is no more waited for; the sinks hear nothing any more.
   void abandon();
+  /// Returns once no sink is at work that was called before.
+  void wait_told();
   void set_lost() { lost_ = true; }
   [[nodiscard]] bool lost() const { return lost_; }
   [[nodiscard]] StreamCounts counts(StreamKind kind) const;
