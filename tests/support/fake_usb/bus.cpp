@@ -32,7 +32,8 @@ void fill(libusb_transfer& transfer) {
 }  // namespace
 
 Bus& Bus::instance() {
-  static Bus bus;
+  // For ever: threads that were given up may still call.
+  static Bus& bus = *new Bus;
   return bus;
 }
 
