@@ -61,6 +61,7 @@ std::vector<std::string> const& allowed_rooms(std::string const& room) {
       {"eval", {"core", "geometry", "io", "eval"}},
       {"stages", {"core", "geometry", "stages"}},
       {"graph", {"core", "geometry", "stages", "graph", "io"}},
+      {"drivers", {"core", "drivers"}},
   };
   auto const found = allowed.find(room);
   static std::vector<std::string> const none;
@@ -68,8 +69,9 @@ std::vector<std::string> const& allowed_rooms(std::string const& room) {
 }
 
 std::set<std::string> const& rooms() {
-  static std::set<std::string> const all = {"core", "geometry", "config", "io",  "sim",
-                                            "eval", "stages",   "graph",  "dds", "openni"};
+  static std::set<std::string> const all = {"core", "geometry", "config", "io",
+                                            "sim",  "eval",     "stages", "graph",
+                                            "dds",  "openni",   "drivers"};
   return all;
 }
 
@@ -113,6 +115,8 @@ TEST(Dependencies, LibrariesStayInTheirRooms) {
       {"turbojpeg.h", {"io"}, false},
       {"nlohmann/", {"io"}, true},
       {"OpenNI.h", {"openni"}, false},
+      {"Driver/OniDriverAPI.h", {"drivers"}, true},
+      {"libfreenect", {"drivers"}, true},
       {"dds/dds.h", {"dds"}, true},
       {"belief.h", {"dds"}, true},
       {"things.h", {"dds"}, false},
