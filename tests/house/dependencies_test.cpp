@@ -56,6 +56,7 @@ std::vector<std::string> const& allowed_rooms(std::string const& room) {
       {"config", {"core", "config"}},
       {"io", {"core", "io"}},
       {"openni", {"core", "io", "openni"}},
+      {"drivers", {"core", "io", "drivers"}},
       {"dds", {"core", "dds"}},
       {"sim", {"core", "geometry", "io", "sim"}},
       {"eval", {"core", "geometry", "io", "eval"}},
@@ -68,8 +69,9 @@ std::vector<std::string> const& allowed_rooms(std::string const& room) {
 }
 
 std::set<std::string> const& rooms() {
-  static std::set<std::string> const all = {"core", "geometry", "config", "io",  "sim",
-                                            "eval", "stages",   "graph",  "dds", "openni"};
+  static std::set<std::string> const all = {"core", "geometry", "config", "io",
+                                            "sim",  "eval",     "stages", "graph",
+                                            "dds",  "openni",   "drivers"};
   return all;
 }
 
@@ -113,6 +115,7 @@ TEST(Dependencies, LibrariesStayInTheirRooms) {
       {"turbojpeg.h", {"io"}, false},
       {"nlohmann/", {"io"}, true},
       {"OpenNI.h", {"openni"}, false},
+      {"Driver/OniDriverAPI.h", {"drivers"}, true},
       {"dds/dds.h", {"dds"}, true},
       {"belief.h", {"dds"}, true},
       {"things.h", {"dds"}, false},
