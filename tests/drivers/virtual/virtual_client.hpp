@@ -147,6 +147,13 @@ protected:
   TempFolder folder_;
 };
 
+/// What OpenNI2 says of a sensor that it does not open.
+inline std::string error_of(std::string const& uri) {
+  openni::Device device;
+  EXPECT_NE(device.open(uri.c_str()), openni::STATUS_OK);
+  return openni::OpenNI::getExtendedError();
+}
+
 /// How many there are of a stream from tick `first` to before `end`.
 inline int count(std::vector<Received> const& all, bool depth, int first, int end) {
   int found = 0;

@@ -177,12 +177,6 @@ TEST_F(VirtualDriver, StopsAndStartsAgain) {
   }
 }
 
-std::string error_of(std::string const& uri) {
-  openni::Device device;
-  EXPECT_NE(device.open(uri.c_str()), openni::STATUS_OK);
-  return openni::OpenNI::getExtendedError();
-}
-
 TEST_F(VirtualDriver, SaysWhichSensorsThereAre) {
   start_with_fault("");
   EXPECT_THAT(error_of("virtual://c"),
