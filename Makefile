@@ -2,6 +2,8 @@
 BUILD  := build
 PRESET ?= release
 OUT    := out/demo
+LIVE   := out/live
+SOAK_S ?= 600
 SUDO   := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 # Whatever reads what others wrote, shares memory between threads or counts its own way through
 # arrays. CI, which has minutes, narrows it.
@@ -14,13 +16,27 @@ TIDY_COMMITS ?=
 TIDIED = $(if $(TIDY_COMMITS),git log -n $(TIDY_COMMITS) --name-only --pretty=format:,git ls-files)
 SOURCES = $(shell git ls-files '*.cpp' '*.hpp')
 
-.PHONY: demo test build deps bench scores docs thesis-results lint sanitize format help
+.PHONY: demo demo-live soak drivers test build deps bench scores docs thesis-results lint sanitize format help
 help:            ## what there is
 	@grep -E '^[a-z-]+: .*## ' Makefile | sed -E 's/:.*## /\t/'
 
 demo: build      ## a simulated room in, a belief and its pictures out
 	$(BUILD)/bin/credo run --source sim:first-light --out $(OUT) --dump labels,pictures
 	@echo "Look at $(OUT)/pictures/ and $(OUT)/belief.jsonl"
+
+demo-live: drivers ## the same from a (virtual) sensor, in real time
+	rm -rf $(LIVE)
+	$(BUILD)/bin/credo simulate scenes/live/table.yaml --out $(LIVE)/data
+	echo '{"sensors": [{"name": "demo", "dataset": "data", "rate_hz": 10, "play": "once"}]}' > $(LIVE)/sensor.json
+	LD_LIBRARY_PATH=$(CURDIR)/$(BUILD)/openni2 CREDO_VIRTUAL_SENSOR=$(CURDIR)/$(LIVE)/sensor.json \
+	  $(BUILD)/bin/credo run --source openni:virtual://demo --frames 90 --no-dds --out $(LIVE)/run --dump pictures
+	@echo "Look at $(LIVE)/run/pictures/ and $(LIVE)/run/belief.jsonl"
+
+soak: drivers    ## SOAK_S seconds at 30 Hz from a virtual sensor: nothing lost, memory flat
+	tools/soak.py $(BUILD)/bin/credo $(BUILD)/openni2 out/soak $(SOAK_S)
+
+drivers: build   ## the modules for OpenNI2
+	cmake --build --preset $(PRESET) --target credo_virtual
 
 test: deps       ## build and run every test
 	cmake --preset $(PRESET) --log-level=WARNING

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -29,6 +30,26 @@ nlohmann::json parsed(std::string const& line) {
   } catch (nlohmann::json::out_of_range const&) {
     throw std::invalid_argument("has a number that is too large");
   }
+}
+
+std::ifstream opened(std::filesystem::path const& path, std::string const& what) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw InputError(path.string() + ": is a folder; " + what + " are a file");
+  }
+  std::ifstream file(path);
+  if (!file) {
+    throw InputError(path.string() + ": " + what + " cannot be read");
+  }
+  return file;
+}
+
+/// LINE:COLUMN, from 1, of a text's byte, from 1.
+std::string place_of(std::string const& text, std::size_t byte) {
+  std::string const before = text.substr(0, byte > 0 ? byte - 1 : 0);
+  auto const line = 1 + std::count(before.begin(), before.end(), '\n');
+  std::size_t const start = before.rfind('\n') + 1;  // 0 where there is none
+  return std::to_string(line) + ":" + std::to_string(before.size() - start + 1);
 }
 
 }  // namespace
@@ -150,14 +171,7 @@ void JsonValue::for_each(std::function<void(JsonValue const&)> const& each) cons
 
 void for_each_json_line(std::filesystem::path const& path, std::string const& what,
                         std::function<void(JsonValue const&)> const& each) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw InputError(path.string() + ": is a folder; " + what + " are a file");
-  }
-  std::ifstream file(path);
-  if (!file) {
-    throw InputError(path.string() + ": " + what + " cannot be read");
-  }
+  std::ifstream file = opened(path, what);
   int line_number = 0;
   for (std::string line; std::getline(file, line);) {
     ++line_number;
@@ -170,6 +184,26 @@ void for_each_json_line(std::filesystem::path const& path, std::string const& wh
     } catch (std::exception const& error) {
       throw InputError(path.string() + ":" + std::to_string(line_number) + ": " + error.what());
     }
+  }
+}
+
+void read_json_file(std::filesystem::path const& path, std::string const& what,
+                    std::function<void(JsonValue const&)> const& read) {
+  std::ifstream file = opened(path, what);
+  std::string const text(std::istreambuf_iterator<char>(file), {});
+  nlohmann::json json;
+  try {
+    json = nlohmann::json::parse(text, nullptr, true, true);
+  } catch (nlohmann::json::parse_error const& error) {
+    throw InputError(path.string() + ":" + place_of(text, error.byte) +
+                     ": is not JSON from here on");
+  } catch (nlohmann::json::out_of_range const&) {
+    throw InputError(path.string() + ": has a number that is too large");
+  }
+  try {
+    read({json, ""});
+  } catch (std::exception const& error) {
+    throw InputError(path.string() + ": " + error.what());
   }
 }
 

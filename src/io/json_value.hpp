@@ -62,8 +62,14 @@ struct JsonValue {
 void for_each_json_line(std::filesystem::path const& path, std::string const& what,
                         std::function<void(JsonValue const&)> const& each);
 
-/// What `read` makes of each line of such a file, in order; each has a `frame`, and one that does
-/// not come after the one before is refused.
+/// Calls `read` with the value of a JSON file that people write; comments (//) are passed over.
+/// Whatever it throws becomes an InputError that begins with the file's name, and text that is not
+/// JSON one that begins with FILE:LINE:COLUMN. `what` is for a file that cannot be read.
+void read_json_file(std::filesystem::path const& path, std::string const& what,
+                    std::function<void(JsonValue const&)> const& read);
+
+/// What `read` makes of each line of a file of JSON lines, in order; each has a `frame`, and one
+/// that does not come after the one before is refused.
 template <typename Read>
 auto read_frames(std::filesystem::path const& path, std::string const& what, Read const& read) {
   std::vector<decltype(read(std::declval<JsonValue const&>()))> frames;
