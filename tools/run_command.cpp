@@ -209,10 +209,14 @@ void play(RunCommand const& command, Inputs inputs, BeliefPublisher* publisher,
   log_start(inputs.prior.warnings, level);
   Outlines const outlines = outlines_of(inputs.known->models);
   Progress progress(frames_to_come);
+  std::optional<LevelWatch> watch;
+  if (level.floor_found && config.pose.level == LevelMode::kAuto && is_live(command.source)) {
+    watch.emplace(level);
+  }
   RunReport const report =
       run_pipeline(source, make_stages(config, level, prior, inputs.known),
                    run_output(folder.has_value() ? &*folder : nullptr, publisher, dump, outlines,
-                              progress, command.source),
+                              progress, command.source, watch.has_value() ? &*watch : nullptr),
                    config.graph, prior_world, workers, stop);
   progress.finish();
   if (folder.has_value()) {
@@ -236,8 +240,9 @@ int run(RunCommand const& command) {
   inputs.config = resolved_config(command.config);
   inputs.prior = prior_of(command, inputs.config);
   inputs.known = known_objects(std::move(inputs.prior.models), inputs.config, command.source);
-  inputs.opened = open_source(command.source, inputs.config.capture, inputs.config.pose,
-                              inputs.config.sim, signals.token());
+  inputs.opened = open_source(
+      command.source, inputs.config.capture, inputs.config.pose, inputs.config.sensor,
+      inputs.config.sim, [](std::string const& note) { spdlog::warn(note); }, signals.token());
   std::ranges::move(inputs.opened.warnings, std::back_inserter(inputs.prior.warnings));
   std::unique_ptr<BeliefPublisher> const publisher = publisher_of(command, inputs.config.dds);
   if (auto const warning = receive_buffer_warning(rmem_max_bytes()); warning && publisher) {

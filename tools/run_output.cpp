@@ -1,6 +1,9 @@
 #include "run_output.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -47,7 +50,8 @@ void write(RunFolder& folder, Files const& files, Dump const& dump) {
 }  // namespace
 
 RunSink run_output(RunFolder* folder, BeliefPublisher* publisher, Dump const& dump,
-                   Outlines const& outlines, Progress& progress, std::string const& source) {
+                   Outlines const& outlines, Progress& progress, std::string const& source,
+                   LevelWatch* watch) {
   RunSink sink;
   auto const source_lost = std::make_shared<bool>(false);
   sink.encode = [=, &outlines, &progress](FrameResult const& result) -> Delivery {
@@ -66,14 +70,22 @@ RunSink run_output(RunFolder* folder, BeliefPublisher* publisher, Dump const& du
           publisher->tell(LifecycleState::kRunning, source);
         }
       }
+      if (std::optional<std::string> const note =
+              watch != nullptr ? watch->look(*result.frame) : std::nullopt) {
+        spdlog::warn(*note);
+        if (publisher != nullptr) {
+          publisher->tell(LifecycleState::kRunning, *note);
+        }
+      }
       progress.show(result);
     };
   };
   sink.lost = [=, &progress](FrameFailure const& failure) {
     progress.lost(failure);
-    if (publisher != nullptr && std::exchange(*source_lost, failure.silence) != failure.silence) {
-      publisher->tell(failure.silence ? LifecycleState::kSourceLost : LifecycleState::kRunning,
-                      failure.silence ? failure.message : source);
+    bool const lost = failure.loss == Loss::kSilence;
+    if (publisher != nullptr && std::exchange(*source_lost, lost) != lost) {
+      publisher->tell(lost ? LifecycleState::kSourceLost : LifecycleState::kRunning,
+                      lost ? failure.message : source);
     }
   };
   if (publisher != nullptr) {

@@ -6,7 +6,6 @@
 
 #include "core/error.hpp"
 #include "openni/oni_source.hpp"
-#include "openni/openni_source.hpp"
 #include "scene_file.hpp"
 #include "sim/sim_source.hpp"
 
@@ -23,13 +22,13 @@ OpenedSource open_sim(std::string const& name_or_file, PoseConfig const& pose,
 }  // namespace
 
 OpenedSource open_source(std::string const& uri, CaptureConfig const& capture,
-                         PoseConfig const& pose, SimConfig const& sim,
-                         std::stop_token const& stop) {
+                         PoseConfig const& pose, SensorConfig const& sensor, SimConfig const& sim,
+                         LiveNotes const& notes, std::stop_token const& stop) {
   std::size_t const colon = uri.find(':');
   std::string const scheme = colon == std::string::npos ? "" : uri.substr(0, colon);
   std::string const rest = colon == std::string::npos ? "" : uri.substr(colon + 1);
   if (scheme == "openni") {
-    return open_openni(rest, capture, pose, stop);
+    return open_openni(rest, capture, pose, sensor, notes, stop);
   }
   if (!rest.empty() && scheme == "dataset") {
     return open_dataset(rest, capture, pose);

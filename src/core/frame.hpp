@@ -36,6 +36,8 @@ struct Frame {
   FrameIndex index{0};
   /// Time of exposure; sources without stamps count 1/30 s a frame.
   std::int64_t stamp_ns = 0;
+  /// When a live sensor's depth came, by this computer's clock, since 1970; else 0.
+  std::int64_t arrival_ns = 0;
   CameraIntrinsics intrinsics;
   OrganizedCloud cloud_camera;
   /// Same size as the cloud, or empty where the source has no colour.

@@ -1,11 +1,22 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <variant>
 
 #include "core/frame.hpp"
 
 namespace credo {
+
+/// What a lost frame says of its source.
+enum class Loss : std::uint8_t {
+  /// It came, but was bad: many of these in a row, and there is no use in going on.
+  kBad,
+  /// It never came, though others did.
+  kMissed,
+  /// No frame came at all for longer than one takes: the source may be lost, and may come back.
+  kSilence,
+};
 
 /// A frame that could not be delivered. It keeps its number and is counted under its reason.
 struct FrameFailure {
@@ -14,8 +25,7 @@ struct FrameFailure {
   std::string reason;
   /// One line for people: what, where, what to do.
   std::string message;
-  /// No frame came at all for longer than one takes: the source may be lost.
-  bool silence = false;
+  Loss loss = Loss::kBad;
 };
 
 struct EndOfSource {};

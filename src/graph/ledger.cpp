@@ -84,7 +84,7 @@ void Ledger::count_failure(FrameFailure const& failure) {
     return;
   }
   // A sensor that is silent may speak again.
-  if (!failure.silence && ++consecutive_failures_ >= max_consecutive_failures_) {
+  if (failure.loss == Loss::kBad && ++consecutive_failures_ >= max_consecutive_failures_) {
     end(std::make_exception_ptr(InputError(
         std::to_string(consecutive_failures_) + " frames failed in a row, the last " +
         described(failure) + "; mend the source or raise graph.max_consecutive_failures")));

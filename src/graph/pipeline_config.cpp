@@ -45,6 +45,7 @@ FieldList fields(PipelineConfig& config) {
   return {
       section("capture", fields(config.capture), "what recordings do not say about themselves"),
       section("pose", fields(config.pose), "camera poses and the level world"),
+      section("sensor", fields(config.sensor), "a live sensor, opened through OpenNI2"),
       section("sim", fields(config.sim), "what a simulated scene's camera is like"),
       section("normals", fields(config.normals), "one normal per pixel"),
       section("detector", fields(config.detector), "the black box that finds known objects"),

@@ -6,6 +6,7 @@
 #include "core/dds_config.hpp"
 #include "core/detector_config.hpp"
 #include "core/fields.hpp"
+#include "core/sensor_config.hpp"
 #include "core/sim_config.hpp"
 #include "graph/bounded_queue.hpp"
 #include "stages/clustering/clustering.hpp"
@@ -63,6 +64,7 @@ FieldList fields(GraphConfig& config);
 struct PipelineConfig {
   CaptureConfig capture;
   PoseConfig pose;
+  SensorConfig sensor;
   SimConfig sim;
   NormalsConfig normals;
   DetectorConfig detector;

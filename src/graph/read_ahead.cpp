@@ -28,7 +28,7 @@ FramePtr ReadAhead::first_frame() {
     if (std::holds_alternative<EndOfSource>(result)) {
       return nullptr;
     }
-    if (auto const& failure = std::get<FrameFailure>(result); failure.silence) {
+    if (auto const& failure = std::get<FrameFailure>(result); failure.loss == Loss::kSilence) {
       throw InputError("no first frame, which a prior in the camera's frame needs: " +
                        failure.message);
     }
@@ -65,7 +65,7 @@ WorldLevel find_level_ahead(ReadAhead& source, PoseConfig const& config) {
         return level;
       }
       first = first == nullptr ? *frame : first;
-    } else if (std::get<FrameFailure>(result).silence) {
+    } else if (std::get<FrameFailure>(result).loss == Loss::kSilence) {
       break;
     }
   }

@@ -1,151 +1,63 @@
 #include "openni/openni_source.hpp"
 
-#include <OpenNI.h>
-
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <chrono>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <string>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "core/error.hpp"
+#include "openni/device_clock.hpp"
+#include "openni/image_pairing.hpp"
+#include "openni/openni_sensor.hpp"
 #include "openni/sensor_image.hpp"
 
 namespace credo {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
 
-constexpr auto kFirstFrameGrace = std::chrono::seconds(10);
-constexpr auto kStallAfter = std::chrono::seconds(2);
 /// How long a request to stop may wait.
-constexpr int kTick_ms = 100;
-/// Half a frame's time at 30 Hz: what is farther apart is another frame's, and what has not come by
-/// then does not come.
-constexpr std::int64_t kPairing_ns = 1'000'000'000 / 30 / 2;
-constexpr int kColorGrace_ms = 1000 / 30 / 2;
-/// Enough to find the one nearest to a depth image that came a little late.
-constexpr std::size_t kColorsKept = 4;
+constexpr milliseconds kTick{100};
+constexpr milliseconds kFirstRetry{250};
+/// So many stalls in a row, and the sensor is opened anew.
+constexpr int kStallsToReopen = 3;
+constexpr double kLongestColorRetry_s = 60.0;
+/// More images than any such sensor takes.
+constexpr double kMostPerS = 120.0;
 
-/// OpenNI ends its texts with line breaks, and knows none for some errors.
-std::string openni_error() {
-  std::string text = openni::OpenNI::getExtendedError();
-  std::erase_if(text, [](char c) { return c == '\n' || c == '\t' || c == '\r'; });
-  return text.empty() ? "OpenNI2 does not say why" : text;
+Clock::duration seconds(double s) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
 }
 
-/// The library, as long as it is needed.
-class Library {
-public:
-  Library() {
-    if (openni::OpenNI::initialize() != openni::STATUS_OK) {
-      throw InputError("openni: OpenNI2 does not start: " + openni_error());
-    }
-  }
-  Library(Library const&) = delete;
-  Library& operator=(Library const&) = delete;
-  Library(Library&&) = delete;
-  Library& operator=(Library&&) = delete;
-  ~Library() { openni::OpenNI::shutdown(); }
-};
-
-/// Hears of a device from OpenNI's threads: an unplugged one stays "valid".
-class Listener : public openni::OpenNI::DeviceDisconnectedListener,
-                 public openni::OpenNI::DeviceStateChangedListener {
-public:
-  explicit Listener(std::string uri) : uri_(std::move(uri)) {
-    openni::OpenNI::addDeviceDisconnectedListener(this);
-    openni::OpenNI::addDeviceStateChangedListener(this);
-  }
-  Listener(Listener const&) = delete;
-  Listener& operator=(Listener const&) = delete;
-  Listener(Listener&&) = delete;
-  Listener& operator=(Listener&&) = delete;
-  ~Listener() override {
-    openni::OpenNI::removeDeviceDisconnectedListener(this);
-    openni::OpenNI::removeDeviceStateChangedListener(this);
-  }
-
-  void onDeviceDisconnected(openni::DeviceInfo const* info) override {
-    unplugged_ = unplugged_ || uri_ == info->getUri();
-  }
-  void onDeviceStateChanged(openni::DeviceInfo const* info, openni::DeviceState state) override {
-    // The only word that OpenNI has for the end of a recording.
-    at_end_ = at_end_ || (uri_ == info->getUri() && state == openni::DEVICE_STATE_EOF);
-  }
-
-  [[nodiscard]] bool unplugged() const { return unplugged_; }
-  [[nodiscard]] bool at_end() const { return at_end_; }
-
-private:
-  std::string uri_;
-  std::atomic<bool> unplugged_ = false;
-  std::atomic<bool> at_end_ = false;
-};
-
-struct ColorImage {
-  std::int64_t stamp_ns = 0;
-  Grid<Rgb> image;
-};
+std::int64_t since_1970_ns(Clock::time_point when) {
+  auto const then = std::chrono::system_clock::now() - (Clock::now() - when);
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(then.time_since_epoch()).count();
+}
 
 class OpenniSource : public FrameSource {
 public:
-  OpenniSource(std::string uri, CaptureConfig const& capture, std::stop_token stop)
-      : uri_(std::move(uri)), capture_(capture), stop_(std::move(stop)) {
-    open();
-    start_depth();
-    start_color();
-    if (!color_.isValid()) {
-      warnings_.push_back(name() + ": has no colour of the size of its depth");
-    }
-    if (depth_.start() != openni::STATUS_OK) {
-      throw InputError(name() + ": its depth does not start: " + openni_error());
-    }
-    intrinsics_ =
-        intrinsics_of({mode_.getResolutionX(), mode_.getResolutionY(),
-                       depth_.getHorizontalFieldOfView(), depth_.getVerticalFieldOfView()},
-                      capture_);
-    waits_until_ = Clock::now() + kFirstFrameGrace;
+  OpenniSource(std::string const& uri, CaptureConfig const& capture, SensorConfig const& config,
+               LiveNotes notes, std::stop_token stop)
+      : uri_(uri),
+        capture_(capture),
+        config_(config),
+        notes_(std::move(notes)),
+        stop_(std::move(stop)) {
+    connect(uri);
+    kind_ = sensor_kind(sensor_->uri());
   }
-  OpenniSource(OpenniSource const&) = delete;
-  OpenniSource& operator=(OpenniSource const&) = delete;
-  OpenniSource(OpenniSource&&) = delete;
-  OpenniSource& operator=(OpenniSource&&) = delete;
-  ~OpenniSource() override {
-    // Its player of recordings has crashed where streams went while it still played.
-    depth_.stop();
-    color_.stop();
-    device_.close();
-    depth_.destroy();
-    color_.destroy();
-  }
-
-  [[nodiscard]] std::vector<std::string> const& warnings() const { return warnings_; }
 
   SourceResult next() override {
     // Time that the caller took is not the sensor's silence.
-    auto const deadline = std::max(waits_until_, Clock::now() + kStallAfter);
+    quiet_until_ = std::max(quiet_until_, Clock::now() + seconds(config_.stall_s));
     while (!stop_.stop_requested()) {
-      if (listener_->unplugged()) {
-        throw InputError(name() + ": was unplugged");
-      }
-      bool const came = wait_and_take();
-      if (FramePtr frame = std::exchange(ready_, nullptr)) {
-        waits_until_ = {};
-        return frame;
-      }
-      if (!came && listener_->at_end()) {
-        break;
-      }
-      if (!came && Clock::now() > deadline) {
-        waits_until_ = {};
-        return FrameFailure{next_index(), "stalled", name() + ": sends no depth" + why_, true};
+      std::optional<SourceResult> result = sensor_ ? listen() : look_for_sensor();
+      if (result) {
+        return std::move(*result);
       }
     }
     return EndOfSource{};
@@ -153,199 +65,248 @@ public:
 
 private:
   [[nodiscard]] std::string name() const { return "openni:" + uri_; }
-
-  void open() {
-    char const* const uri = uri_.empty() ? openni::ANY_DEVICE : uri_.c_str();
-    if (device_.open(uri) != openni::STATUS_OK) {
-      throw InputError(uri_.empty() ? "openni: no sensor (" + openni_error() +
-                                          "): is one plugged in, and of a kind that OpenNI2 has a "
-                                          "driver for?"
-                                    : name() + ": no such sensor: " + openni_error());
-    }
-    listener_.emplace(device_.getDeviceInfo().getUri());
-    if (openni::PlaybackControl* playback = device_.getPlaybackControl()) {
-      playback->setRepeatEnabled(false);
-    }
-  }
-
-  void start_depth() {
-    if (depth_.create(device_, openni::SENSOR_DEPTH) != openni::STATUS_OK) {
-      throw InputError(name() + ": has no depth: " + openni_error());
-    }
-    // What the sensor cannot do, it refuses, and is then done here, or not at all.
-    depth_.setMirroringEnabled(false);
-    mode_ = depth_.getVideoMode();
-    if (mode_.getPixelFormat() != openni::PIXEL_FORMAT_DEPTH_1_MM) {
-      throw InputError(name() + ": its depth is not in millimetres");
-    }
-    if (device_.isImageRegistrationModeSupported(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR)) {
-      device_.setImageRegistrationMode(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR);
-    }
-  }
-
-  void start_color() {
-    if (color_.create(device_, openni::SENSOR_COLOR) != openni::STATUS_OK) {
-      return;
-    }
-    color_.setMirroringEnabled(false);
-    openni::VideoMode const mode = color_.getVideoMode();
-    bool const fits = mode.getPixelFormat() == openni::PIXEL_FORMAT_RGB888 &&
-                      mode.getResolutionX() == mode_.getResolutionX() &&
-                      mode.getResolutionY() == mode_.getResolutionY();
-    if (!fits || color_.start() != openni::STATUS_OK) {
-      color_.destroy();
-    }
-  }
-
-  /// What was asked for is not always done.
-  [[nodiscard]] bool registers() const {
-    return device_.getImageRegistrationMode() == openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
-  }
-
   FrameIndex next_index() { return FrameIndex{frames_++}; }
-
-  /// Row by row, as the stride may be longer than a row; empty where the frame is not whole.
-  template <typename T>
-  Grid<T> image_of(openni::VideoFrameRef const& frame, bool mirrored) const {
-    Grid<T> image(mode_.getResolutionX(), mode_.getResolutionY());
-    auto const stride = static_cast<std::size_t>(frame.getStrideInBytes());
-    std::size_t const row_bytes = static_cast<std::size_t>(image.width()) * sizeof(T);
-    if (frame.getWidth() != image.width() || frame.getHeight() != image.height() ||
-        stride < row_bytes) {
-      return {};
+  void tell(std::string const& what) const {
+    if (notes_) {
+      notes_(name() + ": " + what);
     }
-    auto const* const data = static_cast<unsigned char const*>(frame.getData());
-    for (int v = 0; v < image.height(); ++v) {
-      std::memcpy(image.row(v).data(), data + static_cast<std::size_t>(v) * stride, row_bytes);
-      if (mirrored) {
-        std::ranges::reverse(image.row(v));
+  }
+
+  FrameFailure silence(std::string reason, std::string const& what) {
+    quiet_until_ = Clock::now() + seconds(config_.stall_s);
+    return {next_index(), std::move(reason), name() + ": " + what, Loss::kSilence};
+  }
+
+  void connect(std::string const& uri) {
+    sensor_ = std::make_unique<OpenniSensor>(uri, config_);
+    uri_ = sensor_->uri();
+    intrinsics_ = intrinsics_of(sensor_->optics(), capture_);
+    pairing_.clear();
+    pairing_.expect_color(sensor_->has_color());
+    quiet_until_ = Clock::now() + seconds(config_.first_frame_s);
+    color_due_ = quiet_until_;
+    color_retry_ = seconds(config_.stall_s);
+    stalls_ = 0;
+    last_depth_.reset();
+    for (std::string const& warning : sensor_->warnings()) {
+      if (notes_) {
+        notes_(warning);
       }
     }
-    return image;
   }
 
-  static std::int64_t stamp_ns(openni::VideoFrameRef const& frame) {
-    return static_cast<std::int64_t>(frame.getTimestamp()) * 1000;
+  /// What the sensor's next image makes, if anything.
+  std::optional<SourceResult> listen() {
+    if (missed_ > 0) {
+      --missed_;
+      return FrameFailure{next_index(), "missed",
+                          name() + ": an image did not come, or was not taken in time",
+                          Loss::kMissed};
+    }
+    auto const most =
+        pairing_.is_waiting() ? std::chrono::ceil<milliseconds>(ImagePairing::kNear) : kTick;
+    SensorImage image = sensor_->next(most);
+    switch (image.kind) {
+      case SensorImage::Kind::kUnplugged:
+        if (std::optional<SourceResult> last = frame_of(pairing_.take_now())) {
+          return last;
+        }
+        return lose("unplugged", "was unplugged; waiting for it to come back");
+      case SensorImage::Kind::kBroken:
+        count_missed(image);
+        return FrameFailure{next_index(), "broken_image",
+                            name() + ": sent " + image.why + "; is its cable sound?"};
+      case SensorImage::Kind::kDepth:
+        return depth(std::move(image));
+      case SensorImage::Kind::kColor:
+        color(std::move(image));
+        return frame_of(pairing_.take());
+      case SensorImage::Kind::kNone:
+        break;
+      case SensorImage::Kind::kEnd:
+        if (std::optional<SourceResult> last = frame_of(pairing_.take_now())) {
+          return last;
+        }
+        return EndOfSource{};
+    }
+    if (std::optional<SourceResult> late = frame_of(pairing_.take_now())) {
+      return late;
+    }
+    return Clock::now() > quiet_until_ ? stalled(image.why) : std::nullopt;
   }
 
-  /// Takes the next image of either stream, waiting for it a little; false where none came. Leaves
-  /// a frame in ready_ once its depth has met its colour, or that has not come in time.
-  bool wait_and_take() {
-    std::array<openni::VideoStream*, 2> streams = {&depth_, &color_};
-    int which = -1;
-    openni::Status const status =
-        openni::OpenNI::waitForAnyStream(streams.data(), color_.isValid() ? 2 : 1, &which,
-                                         waiting_ != nullptr ? kColorGrace_ms : kTick_ms);
-    if (status != openni::STATUS_OK) {
-      why_.clear();
-      if (status != openni::STATUS_TIME_OUT) {
-        why_ = " (" + openni_error() + ")";
-        std::this_thread::sleep_for(std::chrono::milliseconds(kTick_ms));  // it does not wait
-      }
-      release();
-      return false;
-    }
-    if (which == 0) {
-      release();
-      waiting_ = take_depth();
-    } else {
-      take_color();
-    }
-    bool const met =
-        waiting_ != nullptr &&
-        (!color_.isValid() || (!colors_.empty() && colors_.back().stamp_ns >= waiting_->stamp_ns));
-    if (ready_ == nullptr && met) {
-      release();
-    }
-    return true;
+  std::optional<SourceResult> depth(SensorImage image) {
+    quiet_until_ = Clock::now() + seconds(config_.stall_s);
+    stalls_ = 0;
+    watch_color();
+    count_missed(image);
+    std::optional<SourceResult> before = frame_of(pairing_.take_now());
+    std::int64_t const stamp_ns = time_ns(image);
+    pairing_.add(DepthImage{stamp_ns, image.arrival, std::move(image.counts)});
+    return before || missed_ > 0 ? before : frame_of(pairing_.take());
   }
 
-  /// The depth image that waits, with the colour that has come, is ready.
-  void release() {
-    if (waiting_ != nullptr) {
-      waiting_->index = next_index();
-      waiting_->color = color_near(waiting_->stamp_ns);
-      waiting_->color_registered = is_color_registered(capture_, registers());
-      ready_ = std::exchange(waiting_, nullptr);
+  /// By the sensor's own numbers, as far as there was time for so many.
+  void count_missed(SensorImage const& image) {
+    if (last_depth_ && image.number > last_depth_->number) {
+      auto const passed = std::chrono::duration<double>(image.arrival - last_depth_->arrival);
+      int const missed = image.number - last_depth_->number - 1;
+      missed_ = missed <= kMostPerS * (1.0 + passed.count()) ? missed : 0;
     }
+    last_depth_ = {image.number, image.arrival};
   }
 
-  void take_color() {
-    openni::VideoFrameRef frame;
-    if (color_.readFrame(&frame) != openni::STATUS_OK) {
+  void color(SensorImage image) {
+    color_due_ = image.arrival + seconds(config_.stall_s);
+    color_retry_ = seconds(config_.stall_s);
+    pairing_.add(ColorImage{clock_.following_time_ns(image.stamp_us, image.arrival),
+                            std::move(image.color)});
+  }
+
+  /// Depth goes on without colour, and colour is started anew now and then.
+  void watch_color() {
+    if (!sensor_->has_color() || Clock::now() < color_due_) {
       return;
     }
-    Grid<Rgb> image = image_of<Rgb>(frame, color_.getMirroringEnabled());
-    if (!image.empty()) {
-      colors_.push_back({stamp_ns(frame), std::move(image)});
-    }
-    if (colors_.size() > kColorsKept) {
-      colors_.erase(colors_.begin());
-    }
+    tell("sends no colour; starting it anew");
+    sensor_->restart_color();
+    color_due_ = Clock::now() + color_retry_;
+    color_retry_ = std::min(2 * color_retry_, seconds(kLongestColorRetry_s));
   }
 
-  std::shared_ptr<Frame> take_depth() {
-    openni::VideoFrameRef read;
-    if (depth_.readFrame(&read) != openni::STATUS_OK) {
-      return nullptr;
+  std::int64_t time_ns(SensorImage const& image) {
+    std::uint64_t const jumps = clock_.jumps();
+    std::int64_t const time_ns = clock_.time_ns(image.stamp_us, image.arrival);
+    if (clock_.jumps() > jumps) {
+      tell("its clock jumped; time goes on by this computer's");
     }
-    auto const counts = image_of<std::uint16_t>(read, depth_.getMirroringEnabled());
-    if (counts.empty()) {
-      return nullptr;
+    return time_ns;
+  }
+
+  std::optional<SourceResult> frame_of(std::optional<ImagePair> pair) {
+    if (!pair) {
+      return std::nullopt;
     }
     auto frame = std::make_shared<Frame>();
-    frame->stamp_ns = stamp_ns(read);
+    frame->index = next_index();
+    frame->stamp_ns = pair->depth.stamp_ns;
+    frame->arrival_ns = since_1970_ns(pair->depth.arrival);
     frame->intrinsics = intrinsics_;
+    Grid<std::uint16_t> const& counts = pair->depth.counts;
     frame->cloud_camera = cloud_from_depth(
         depth_image({counts.data(), counts.size()}, counts.width(), counts.height(), capture_),
         intrinsics_);
-    return frame;
+    frame->color = std::move(pair->color);
+    frame->color_registered = is_color_registered(capture_, sensor_->says_registered());
+    return FramePtr(std::move(frame));
   }
 
-  [[nodiscard]] Grid<Rgb> color_near(std::int64_t stamp_ns) const {
-    auto const distance_ns = [&](ColorImage const& color) {
-      return std::abs(color.stamp_ns - stamp_ns);
-    };
-    auto const nearest = std::ranges::min_element(colors_, {}, distance_ns);
-    return nearest != colors_.end() && distance_ns(*nearest) <= kPairing_ns ? nearest->image
-                                                                            : Grid<Rgb>();
+  std::optional<SourceResult> stalled(std::string const& why) {
+    if (++stalls_ >= kStallsToReopen) {
+      return lose("stalled", "sends no depth; opening it anew");
+    }
+    return silence("stalled", "sends no depth" + (why.empty() ? "" : " (" + why + ")"));
   }
 
+  /// Closes what does not come back by itself. Its old objects are of no use, even once the sensor
+  /// is plugged in again.
+  std::optional<SourceResult> lose(std::string reason, std::string const& what) {
+    sensor_.reset();
+    pairing_.clear();
+    missed_ = 0;
+    lost_at_ = Clock::now();
+    retry_ = kFirstRetry;
+    retry_at_ = lost_at_ + retry_;
+    return silence(std::move(reason), what);
+  }
+
+  std::optional<SourceResult> look_for_sensor() {
+    if (Clock::now() >= retry_at_) {
+      if (try_to_connect()) {
+        return std::nullopt;
+      }
+      retry_ = std::min(std::chrono::duration_cast<Clock::duration>(2 * retry_),
+                        seconds(config_.retry_s));
+      retry_at_ = Clock::now() + retry_;
+    }
+    if (Clock::now() > quiet_until_) {
+      auto const away = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - lost_at_);
+      return silence("away", "has been away for " + std::to_string(away.count()) + " s" + why_);
+    }
+    std::this_thread::sleep_for(std::min<Clock::duration>(kTick, retry_at_ - Clock::now()));
+    return std::nullopt;
+  }
+
+  /// By its URI, or, as a sensor in another socket has another, the only one of its kind.
+  bool try_to_connect() {
+    std::vector<std::string> const there = sensor_uris(kind_);
+    bool const same = std::ranges::find(there, uri_) != there.end();
+    if (!same && there.size() != 1) {
+      why_ = there.empty() ? "" : "; several of its kind are there, but not this one";
+      return false;
+    }
+    try {
+      connect(same ? uri_ : there.front());
+    } catch (InputError const& error) {
+      sensor_.reset();
+      why_ = std::string(": ") + error.what();
+      return false;
+    }
+    clock_.restart();
+    auto const away =
+        std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - lost_at_);
+    tell("is back after " + std::to_string(away.count() / 1000) + "." +
+         std::to_string(away.count() / 100 % 10) + " s");
+    return true;
+  }
+
+  /// As it was asked for, and as OpenNI2 names it.
   std::string uri_;
   CaptureConfig capture_;
+  SensorConfig config_;
+  LiveNotes notes_;
   std::stop_token stop_;
   // In this order: the library goes last.
-  Library library_;
-  openni::Device device_;
-  std::optional<Listener> listener_;
-  openni::VideoStream depth_;
-  openni::VideoStream color_;
-  openni::VideoMode mode_;
+  OpenniLibrary library_;
+  /// None while it is away.
+  std::unique_ptr<OpenniSensor> sensor_;
+  std::optional<std::uint32_t> kind_;
   CameraIntrinsics intrinsics_;
-  std::vector<std::string> warnings_;
-  std::vector<ColorImage> colors_;
-  /// A depth image whose colour may still come.
-  std::shared_ptr<Frame> waiting_;
-  FramePtr ready_;
-  /// What OpenNI2 said where it did not wait for an image.
-  std::string why_;
+  DeviceClock clock_;
+  ImagePairing pairing_;
   std::int64_t frames_ = 0;
   /// Until then silence is no fault.
-  Clock::time_point waits_until_;
+  Clock::time_point quiet_until_;
+  int stalls_ = 0;
+  /// Until then no colour is no fault, and how long after a new start.
+  Clock::time_point color_due_;
+  Clock::duration color_retry_{};
+  struct Numbered {
+    int number = 0;
+    Clock::time_point arrival;
+  };
+  std::optional<Numbered> last_depth_;
+  /// Images that did not come before the one that waits in pairing_.
+  int missed_ = 0;
+  Clock::time_point lost_at_;
+  Clock::time_point retry_at_;
+  Clock::duration retry_{};
+  /// Why the sensor could not be opened again.
+  std::string why_;
 };
 
 }  // namespace
 
 OpenedSource open_openni(std::string const& uri, CaptureConfig const& capture,
-                         PoseConfig const& pose, std::stop_token stop) {
+                         PoseConfig const& pose, SensorConfig const& sensor, LiveNotes notes,
+                         std::stop_token stop) {
   if (pose.source == PoseSource::kFile) {
     throw InputError("openni:" + uri +
                      ": a sensor's poses are not known beforehand; pose.source must not be file");
   }
   OpenedSource opened;
-  auto source = std::make_unique<OpenniSource>(uri, capture, std::move(stop));
-  opened.warnings = source->warnings();
-  opened.source = std::move(source);
+  opened.source =
+      std::make_unique<OpenniSource>(uri, capture, sensor, std::move(notes), std::move(stop));
   return opened;
 }
 

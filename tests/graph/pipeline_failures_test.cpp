@@ -283,7 +283,7 @@ TEST(PipelineFailures, SilenceIsNoFailureInARow) {
   config.max_consecutive_failures = 3;
   auto const silent_for_a_while = [](std::int64_t index) -> SourceResult {
     if (index > 0 && index < 20) {
-      return FrameFailure{FrameIndex{index}, "stalled", "no frame", true};
+      return FrameFailure{FrameIndex{index}, "stalled", "no frame", Loss::kSilence};
     }
     return test::tiny_frame(index);
   };

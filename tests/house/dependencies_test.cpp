@@ -62,7 +62,6 @@ std::vector<std::string> const& allowed_rooms(std::string const& room) {
       {"eval", {"core", "geometry", "io", "eval"}},
       {"stages", {"core", "geometry", "stages"}},
       {"graph", {"core", "geometry", "stages", "graph", "io"}},
-      {"drivers", {"core", "drivers"}},
   };
   auto const found = allowed.find(room);
   static std::vector<std::string> const none;

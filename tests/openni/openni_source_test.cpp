@@ -58,7 +58,7 @@ TEST_F(OpenniSource, EqualsTheRecording) {
        result = ours.source->next()) {
     expected.push_back(std::get<FramePtr>(result));
   }
-  OpenedSource const opened = open_openni(path, {}, {}, {});
+  OpenedSource const opened = open_openni(path, {}, {}, {}, {}, {});
   EXPECT_FALSE(opened.frame_count.has_value());
   std::int64_t frames = 0;
   int colored = 0;
@@ -82,14 +82,14 @@ TEST_F(OpenniSource, EqualsTheRecording) {
 TEST_F(OpenniSource, WithoutASensorItSaysSo) {
   std::string const missing = (folder_ / "none.oni").string();
   try {
-    open_openni(missing, {}, {}, {});
+    open_openni(missing, {}, {}, {}, {}, {});
     FAIL();
   } catch (InputError const& error) {
     EXPECT_THAT(error.what(), HasSubstr("openni:" + missing + ": no such sensor: "));
   }
   PoseConfig pose;
   pose.source = PoseSource::kFile;
-  EXPECT_THROW(open_openni(missing, {}, pose, {}), InputError);
+  EXPECT_THROW(open_openni(missing, {}, pose, {}, {}, {}), InputError);
 }
 
 // A recording without its end record never ends for OpenNI2: as silent as a sensor that hangs.
@@ -98,14 +98,14 @@ TEST_F(OpenniSource, SilenceIsAFailureAndStopsOnRequest) {
   bytes.resize(bytes.size() - 28);
   write_text(folder_ / "a.oni", bytes);
   std::stop_source stop;
-  OpenedSource const opened = open_openni((folder_ / "a.oni").string(), {}, {}, stop.get_token());
+  OpenedSource const opened = open_openni((folder_ / "a.oni").string(), {}, {}, {}, {}, stop.get_token());
   SourceResult result = opened.source->next();
   while (std::holds_alternative<FramePtr>(result)) {
     result = opened.source->next();
   }
   auto const& failure = std::get<FrameFailure>(result);
   EXPECT_EQ(failure.reason, "stalled");
-  EXPECT_TRUE(failure.silence);
+  EXPECT_EQ(failure.loss, Loss::kSilence);
   EXPECT_THAT(failure.message, HasSubstr("sends no depth"));
   stop.request_stop();
   EXPECT_TRUE(std::holds_alternative<EndOfSource>(opened.source->next()));

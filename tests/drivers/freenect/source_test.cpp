@@ -35,7 +35,7 @@ fake_usb::Kinect before_a_wall() {
 
 TEST(FreenectSource, FramesOfAWall) {
   fake_usb::plug(before_a_wall());
-  OpenedSource const opened = open_openni("freenect://A", {}, {}, {});
+  OpenedSource const opened = open_openni("freenect://A", {}, {}, {}, {}, {});
   EXPECT_TRUE(opened.warnings.empty());
   auto const wall_m = static_cast<float>(fake_usb::depth_mm(kWallRaw) / 1000);
   std::int64_t last_ns = -1;
@@ -68,7 +68,7 @@ TEST(FreenectSource, FramesOfAWall) {
 
 TEST(FreenectSource, EndsWithAnErrorWhenUnplugged) {
   fake_usb::plug(before_a_wall());
-  OpenedSource const opened = open_openni("", {}, {}, {});
+  OpenedSource const opened = open_openni("", {}, {}, {}, {}, {});
   ASSERT_TRUE(std::holds_alternative<FramePtr>(opened.source->next()));
   fake_usb::unplug("A");
   try {
@@ -85,7 +85,7 @@ TEST(FreenectSource, ABusyKinectIsSaid) {
   fake_usb::plug(before_a_wall());
   fake_usb::set_faults("A", {.claim_error = -6});
   try {
-    open_openni("freenect://A", {}, {}, {});
+    open_openni("freenect://A", {}, {}, {}, {}, {});
     FAIL();
   } catch (InputError const& error) {
     EXPECT_THAT(error.what(), HasSubstr("LIBUSB_ERROR_BUSY"));
