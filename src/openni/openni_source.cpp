@@ -9,9 +9,11 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "geometry/depth_registration.hpp"
 #include "openni/device_clock.hpp"
 #include "openni/image_pairing.hpp"
 #include "openni/openni_sensor.hpp"
+#include "openni/registration_check.hpp"
 #include "openni/sensor_image.hpp"
 
 namespace credo {
@@ -81,6 +83,7 @@ private:
     sensor_ = std::make_unique<OpenniSensor>(uri, config_);
     uri_ = sensor_->uri();
     intrinsics_ = intrinsics_of(sensor_->optics(), capture_);
+    settle_registration();
     pairing_.clear();
     pairing_.expect_color(sensor_->has_color());
     quiet_until_ = Clock::now() + seconds(config_.first_frame_s);
@@ -193,12 +196,49 @@ private:
     frame->arrival_ns = since_1970_ns(pair->depth.arrival);
     frame->intrinsics = intrinsics_;
     Grid<std::uint16_t> const& counts = pair->depth.counts;
-    frame->cloud_camera = cloud_from_depth(
-        depth_image({counts.data(), counts.size()}, counts.width(), counts.height(), capture_),
-        intrinsics_);
+    Grid<float> depth_m =
+        depth_image({counts.data(), counts.size()}, counts.width(), counts.height(), capture_);
     frame->color = std::move(pair->color);
-    frame->color_registered = is_color_registered(capture_, sensor_->says_registered());
+    check_registration(depth_m, frame->color);
+    if (registers_here_) {
+      depth_m = register_depth(depth_m, calibration_, counts.width(), counts.height());
+    }
+    frame->color_registered =
+        is_color_registered(capture_, registers_here_ || sensor_->says_registered());
+    frame->cloud_camera = cloud_from_depth(std::move(depth_m), intrinsics_);
     return FramePtr(std::move(frame));
+  }
+
+  /// What a sensor says of its registration is not always what it does.
+  void check_registration(Grid<float> const& depth_m, Grid<Rgb> const& color) {
+    if (config_.registration == RegistrationMode::kAuto && !registers_here_ &&
+        check_.add(depth_m, color) == Registration::kUnregistered) {
+      tell(
+          "says that its depth is registered, and its images show that it is not: it is "
+          "registered here from now on");
+      register_here();
+    }
+  }
+
+  /// Depth is then the colour camera's, by what is known of a Kinect.
+  void register_here() {
+    DepthOptics const optics = sensor_->optics();
+    calibration_ = scaled(kinect_calibration(), optics.width_px / 640.0);
+    calibration_.color = intrinsics_of({optics.width_px, optics.height_px, {}, {}}, capture_);
+    intrinsics_ = calibration_.color;
+    registers_here_ = true;
+  }
+
+  /// Of a sensor that was just opened.
+  void settle_registration() {
+    DepthOptics const optics = sensor_->optics();
+    check_ = RegistrationCheck(scaled(kinect_calibration(), optics.width_px / 640.0));
+    bool const cannot =
+        config_.registration == RegistrationMode::kAuto && !sensor_->says_registered();
+    registers_here_ = false;
+    if (sensor_->has_color() && (cannot || config_.registration == RegistrationMode::kSoftware)) {
+      register_here();
+    }
   }
 
   std::optional<SourceResult> stalled(std::string const& why) {
@@ -272,6 +312,10 @@ private:
   std::unique_ptr<OpenniSensor> sensor_;
   std::optional<std::uint32_t> kind_;
   CameraIntrinsics intrinsics_;
+  RegistrationCheck check_;
+  /// Depth comes as the depth camera sees it.
+  bool registers_here_ = false;
+  DepthCalibration calibration_;
   DeviceClock clock_;
   ImagePairing pairing_;
   std::int64_t frames_ = 0;
