@@ -113,6 +113,10 @@ public:
   [[nodiscard]] bool says_registered() const {
     return device_.getImageRegistrationMode() == openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
   }
+  [[nodiscard]] DepthOptics color_optics() const {
+    return {mode_.getResolutionX(), mode_.getResolutionY(), color_.getHorizontalFieldOfView(),
+            color_.getVerticalFieldOfView()};
+  }
   [[nodiscard]] DepthOptics optics() const {
     return {mode_.getResolutionX(), mode_.getResolutionY(), depth_.getHorizontalFieldOfView(),
             depth_.getVerticalFieldOfView()};
@@ -299,6 +303,9 @@ std::string const& OpenniSensor::uri() const {
 }
 DepthOptics OpenniSensor::optics() const {
   return open_->optics();
+}
+DepthOptics OpenniSensor::color_optics() const {
+  return open_->color_optics();
 }
 bool OpenniSensor::has_color() const {
   return open_->has_color();

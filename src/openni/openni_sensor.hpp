@@ -56,6 +56,8 @@ public:
   [[nodiscard]] std::string const& uri() const;
   [[nodiscard]] DepthOptics optics() const;
   [[nodiscard]] bool has_color() const;
+  /// Of the colour camera; only where there is one.
+  [[nodiscard]] DepthOptics color_optics() const;
   /// Whether the sensor says that its depth is registered to its colour camera; asked anew.
   [[nodiscard]] bool says_registered() const;
   /// What was asked for and could not be had, one line each.

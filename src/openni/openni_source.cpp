@@ -40,6 +40,11 @@ std::int64_t since_1970_ns(Clock::time_point when) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(then.time_since_epoch()).count();
 }
 
+DepthCalibration kinect_calibration_of(DepthOptics const& optics) {
+  constexpr double kKinectWidth_px = 640.0;
+  return scaled(kinect_calibration(), optics.width_px / kKinectWidth_px);
+}
+
 class OpenniSource : public FrameSource {
 public:
   OpenniSource(std::string const& uri, CaptureConfig const& capture, SensorConfig const& config,
@@ -220,11 +225,15 @@ private:
     }
   }
 
-  /// Depth is then the colour camera's, by what is known of a Kinect.
+  /// Depth is then the colour camera's. Where the sensor says that it does not register, its field
+  /// of view is the depth camera's; what it does not tell is as in a Kinect.
   void register_here() {
     DepthOptics const optics = sensor_->optics();
-    calibration_ = scaled(kinect_calibration(), optics.width_px / 640.0);
-    calibration_.color = intrinsics_of({optics.width_px, optics.height_px, {}, {}}, capture_);
+    calibration_ = kinect_calibration_of(optics);
+    if (!sensor_->says_registered()) {
+      calibration_.depth = intrinsics_of(optics, {});
+    }
+    calibration_.color = intrinsics_of(sensor_->color_optics(), capture_);
     intrinsics_ = calibration_.color;
     registers_here_ = true;
   }
@@ -232,7 +241,7 @@ private:
   /// Of a sensor that was just opened.
   void settle_registration() {
     DepthOptics const optics = sensor_->optics();
-    check_ = RegistrationCheck(scaled(kinect_calibration(), optics.width_px / 640.0));
+    check_ = RegistrationCheck(kinect_calibration_of(optics));
     bool const cannot =
         config_.registration == RegistrationMode::kAuto && !sensor_->says_registered();
     registers_here_ = false;

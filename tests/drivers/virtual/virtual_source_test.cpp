@@ -229,9 +229,34 @@ TEST_F(VirtualSource, ColourOfAnotherMomentIsPairedAsFarAsItIsNear) {
   EXPECT_GT(read_until(1).colored(), 0);
 }
 
-TEST_F(VirtualSource, SaysWhetherColourIsRegistered) {
-  open(R"({"fault": "registration_missing"})");
-  EXPECT_FALSE(read_until(0.3).frames.back()->color_registered);
+/// The share of pixels whose depth is the registered image's, to 3 mm.
+double share_registered(Frame const& frame, std::size_t images) {
+  std::size_t most = 0;
+  for (std::size_t image = 0; image < images; ++image) {
+    Grid<std::uint16_t> const expected = depth_of(image);
+    std::size_t same = 0;
+    for (std::size_t p = 0; p < expected.size(); ++p) {
+      same += std::abs(1000 * frame.cloud_camera.z[p] - expected[p]) <= 3.0 ? 1U : 0U;
+    }
+    most = std::max(most, same);
+  }
+  return static_cast<double>(most) / static_cast<double>(frame.cloud_camera.size());
+}
+
+TEST_F(VirtualSource, WhatTheSensorCannotRegisterIsRegisteredHere) {
+  std::map<RegistrationMode, double> share;
+  for (RegistrationMode const mode : {RegistrationMode::kAuto, RegistrationMode::kOff}) {
+    opened_ = {};
+    next_index_ = 0;
+    SensorConfig config;
+    config.registration = mode;
+    open(R"({"fault": "registration_missing"})", config);
+    Seen const seen = read_until(0.3);
+    EXPECT_EQ(seen.frames.back()->color_registered, mode == RegistrationMode::kAuto);
+    share[mode] = share_registered(*seen.frames.back(), 12);
+  }
+  EXPECT_GT(share[RegistrationMode::kAuto], 0.6);
+  EXPECT_LT(share[RegistrationMode::kOff], 0.3);
 }
 
 TEST_F(VirtualSource, ASensorThatIsNotThereIsAnError) {
