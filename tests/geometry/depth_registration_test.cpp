@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -193,6 +195,19 @@ TEST(DepthRegistration, SeesNothingBehindTheColourCamera) {
   calibration.T_color_depth = Se3(Eigen::Quaterniond::Identity(), {0.0, 0.0, -1.0});
   EXPECT_EQ(register_depth(Grid<float>(64, 48, 0.9F), calibration, 64, 48),
             Grid<float>(64, 48, 0.0F));
+}
+
+// So steep that left and right are swapped between the two cameras.
+TEST(DepthRegistration, LeavesOutWhatTheColourCameraSeesFromBehind) {
+  DepthCalibration calibration = small_calibration();
+  calibration.T_color_depth = Se3(Eigen::Quaterniond::Identity(), {-0.25, 0.0, 0.0});
+  calibration.color.cx_px += 45.0;
+  Grid<float> depth_m(64, 48);
+  for (std::size_t i = 0; i < depth_m.size(); ++i) {
+    depth_m[i] = 0.8F * std::pow(0.975F, static_cast<float>(depth_m.pixel(i).u));
+  }
+  Grid<float> const registered_m = register_depth(depth_m, calibration, 64, 48);
+  expect_same(registered_m, literal_registration(depth_m, calibration, 64, 48));
 }
 
 TEST(DepthRegistration, RefusesAFocalLengthOfZero) {
