@@ -10,18 +10,12 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "openni/openni_error.hpp"
 
 namespace credo {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// OpenNI ends its texts with line breaks, and knows none for some errors.
-std::string openni_error() {
-  std::string text = openni::OpenNI::getExtendedError();
-  std::erase_if(text, [](char c) { return c == '\n' || c == '\t' || c == '\r'; });
-  return text.empty() ? "OpenNI2 does not say why" : text;
-}
 
 /// Hears of a device from OpenNI's threads: an unplugged one stays "valid".
 class Listener : public openni::OpenNI::DeviceDisconnectedListener,
@@ -159,7 +153,7 @@ private:
     if (device_.open(uri.empty() ? openni::ANY_DEVICE : uri.c_str()) != openni::STATUS_OK) {
       throw InputError(uri.empty() ? "openni: no sensor (" + openni_error() +
                                          "): is one plugged in, and of a kind that OpenNI2 has a "
-                                         "driver for? `credo doctor` tells more"
+                                         "driver for? `credo devices` lists what it sees"
                                    : name() + ": no such sensor: " + openni_error() +
                                          "; `credo devices` lists those that are there");
     }
@@ -330,37 +324,6 @@ OpenniLibrary::OpenniLibrary() {
 }
 OpenniLibrary::~OpenniLibrary() {
   openni::OpenNI::shutdown();
-}
-
-namespace {
-
-std::uint32_t kind_of(openni::DeviceInfo const& info) {
-  return (std::uint32_t{info.getUsbVendorId()} << 16U) | info.getUsbProductId();
-}
-
-}  // namespace
-
-std::vector<std::string> sensor_uris(std::optional<std::uint32_t> kind) {
-  openni::Array<openni::DeviceInfo> infos;
-  openni::OpenNI::enumerateDevices(&infos);
-  std::vector<std::string> uris;
-  for (int i = 0; i < infos.getSize(); ++i) {
-    if (!kind || kind_of(infos[i]) == *kind) {
-      uris.emplace_back(infos[i].getUri());
-    }
-  }
-  return uris;
-}
-
-std::optional<std::uint32_t> sensor_kind(std::string const& uri) {
-  openni::Array<openni::DeviceInfo> infos;
-  openni::OpenNI::enumerateDevices(&infos);
-  for (int i = 0; i < infos.getSize(); ++i) {
-    if (uri == infos[i].getUri()) {
-      return kind_of(infos[i]);
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace credo

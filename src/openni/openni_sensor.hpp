@@ -84,10 +84,4 @@ public:
   ~OpenniLibrary();
 };
 
-/// The URIs of the sensors that are plugged in now, of that kind where one is given.
-std::vector<std::string> sensor_uris(std::optional<std::uint32_t> kind = std::nullopt);
-
-/// Tells kinds of sensors apart: USB vendor and product. None where no such sensor is there.
-std::optional<std::uint32_t> sensor_kind(std::string const& uri);
-
 }  // namespace credo

@@ -15,6 +15,7 @@
 #include "openni/openni_sensor.hpp"
 #include "openni/registration_check.hpp"
 #include "openni/sensor_image.hpp"
+#include "openni/sensor_list.hpp"
 
 namespace credo {
 namespace {

@@ -15,6 +15,7 @@
 #include "drivers/virtual/virtual_client.hpp"
 #include "io/dataset.hpp"
 #include "openni/openni_source.hpp"
+#include "openni/sensor_list.hpp"
 
 namespace credo::test {
 namespace {
@@ -257,6 +258,21 @@ TEST_F(VirtualSource, WhatTheSensorCannotRegisterIsRegisteredHere) {
   }
   EXPECT_GT(share[RegistrationMode::kAuto], 0.6);
   EXPECT_LT(share[RegistrationMode::kOff], 0.3);
+}
+
+TEST_F(VirtualSource, IsListed) {
+  open("");
+  std::vector<SensorInfo> const sensors = list_sensors();
+  ASSERT_EQ(sensors.size(), 1U);
+  EXPECT_EQ(sensors[0].uri, "virtual://a");
+  EXPECT_EQ(sensors[0].trouble, "");
+  EXPECT_TRUE(sensors[0].registers);
+  ASSERT_FALSE(sensors[0].depth_modes.empty());
+  EXPECT_EQ(sensors[0].depth_modes[0].width_px, kWidth);
+  EXPECT_EQ(sensors[0].depth_modes[0].rate_hz, 30);
+  EXPECT_EQ(sensors[0].depth_modes[0].format, "1 mm");
+  ASSERT_FALSE(sensors[0].color_modes.empty());
+  EXPECT_EQ(sensors[0].color_modes[0].format, "RGB888");
 }
 
 TEST_F(VirtualSource, ASensorThatIsNotThereIsAnError) {
