@@ -118,12 +118,16 @@ public:
   OpenniSource(OpenniSource&&) = delete;
   OpenniSource& operator=(OpenniSource&&) = delete;
   ~OpenniSource() override {
-    // Its player of recordings has crashed where streams went while it still played.
     depth_.stop();
     color_.stop();
-    device_.close();
+    if (device_.isFile()) {
+      // Its player of recordings has crashed where streams went while it still played.
+      device_.close();
+    }
+    // Before their device: OpenNI2 frees what they use with it, and knows of no stream that runs.
     depth_.destroy();
     color_.destroy();
+    device_.close();
   }
 
   [[nodiscard]] std::vector<std::string> const& warnings() const { return warnings_; }
