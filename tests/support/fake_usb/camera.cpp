@@ -53,8 +53,9 @@ std::vector<Bytes> packed_all(std::vector<std::vector<std::uint16_t>> const& ima
 Camera::Camera(Kinect kinect)
     : serial_(std::move(kinect.serial)),
       pace_{Clock::now(), kinect.rate_hz, kinect.first_stamp},
-      depth_(0x70, kDepthPayload, 0, packed_all(kinect.images.depth_raw)),
-      color_(0x80, kColorPayload, kColorDelay_ticks, std::move(kinect.images.color_bayer)) {
+      depth_(0x70, kDepthPayload, 0, 0, packed_all(kinect.images.depth_raw)),
+      color_(0x80, kColorPayload, kColorDelay_ticks, kinect.color_lead,
+             std::move(kinect.images.color_bayer)) {
   color_registers_[kColorFlags] = kColorFlagsAtFirst;
 }
 
