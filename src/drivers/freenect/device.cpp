@@ -19,6 +19,12 @@ KinectDevice::KinectDevice(std::string const& serial, oni::driver::DriverService
   }
 }
 
+KinectDevice::~KinectDevice() {
+  kinect_.close();
+  delete depth_;
+  delete color_;
+}
+
 KinectSinks KinectDevice::sinks() {
   return {[this](std::span<std::uint16_t const> depths_mm, DepthCleaner const& cleaner,
                  std::uint64_t stamp_us) {
@@ -56,7 +62,6 @@ oni::driver::StreamBase* KinectDevice::createStream(OniSensorType sensor) {
 }
 
 void KinectDevice::destroyStream(oni::driver::StreamBase* stream) {
-  // OpenNI closes a device without stopping its streams: none may deliver any more.
   stream->stop();
   if (stream == depth_) {
     depth_ = nullptr;

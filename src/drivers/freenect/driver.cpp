@@ -101,7 +101,12 @@ void Driver::deviceClose(oni::driver::DeviceBase* device) {
     std::scoped_lock const lock(mutex_);
     std::erase_if(open_, [&](Opened const& opened) { return opened.device == device; });
   }
-  delete device;
+  std::unique_ptr<KinectDevice> kinect(static_cast<KinectDevice*>(device));
+  kinect->kinect().close();
+  if (kinect->has_streams()) {
+    std::scoped_lock const lock(mutex_);
+    closed_.push_back(std::move(kinect));
+  }
 }
 
 void Driver::shutdown() {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "drivers/freenect/kinect.hpp"
@@ -217,6 +218,30 @@ TEST(Faults, ClosingStopsBothStreams) {
   EXPECT_EQ(fake_usb::usage("A").transfers_in_flight, 0);
   EXPECT_EQ(fake_usb::usage("A").open_handles, 0);
   EXPECT_EQ(fake_usb::usage("A").misuses, 0);
+  fake_usb::unplug("A");
+}
+
+// Frames of both streams are there at once; whoever hears of the first ends it all.
+TEST(Faults, NothingIsToldFromTheEndOn) {
+  fake_usb::plug(kinect("A"));
+  std::optional<freenect::KinectThread> thread;
+  int told = 0;
+  auto const tell = [&] {
+    ++told;
+    thread->end();
+  };
+  thread.emplace("A", freenect::KinectSinks{[&](auto, auto const&, auto) { tell(); },
+                                            [&](auto, auto) { tell(); }, [](auto const&) {}});
+  thread->ask([&](freenect::OpenKinect& open) {
+    thread->start(open, freenect::StreamKind::kDepth);
+    thread->start(open, freenect::StreamKind::kColor);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  });
+  thread->run();
+  EXPECT_EQ(told, 1);
+  EXPECT_EQ(fake_usb::usage("A").open_handles, 0);
+  EXPECT_EQ(fake_usb::usage("A").misuses, 0);
+  fake_usb::unplug("A");
 }
 
 }  // namespace
