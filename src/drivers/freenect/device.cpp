@@ -57,7 +57,7 @@ oni::driver::StreamBase* KinectDevice::createStream(OniSensorType sensor) {
     color_ = new ColorStream(kinect_, services_);
     return color_;
   }
-  services_.errorLoggerAppend("a Kinect has one stream of depth and one of colour");
+  append_error(services_, "a Kinect has one stream of depth and one of colour");
   return nullptr;
 }
 

@@ -49,7 +49,7 @@ std::future<void> KinectThread::ask(Command command) {
   Asked asked{std::move(command), {}};
   std::future<void> done = asked.done.get_future();
   if (refuses_ || lost_) {
-    asked.done.set_exception(std::make_exception_ptr(KinectError("was unplugged")));
+    asked.done.set_exception(std::make_exception_ptr(KinectError("was unplugged, or given up")));
   } else {
     asked_.push_back(std::move(asked));
   }
@@ -78,7 +78,7 @@ void KinectThread::refuse_commands() {
   std::scoped_lock const lock(asking_);
   refuses_ = true;
   for (Asked& asked : asked_) {
-    asked.done.set_exception(std::make_exception_ptr(KinectError("was unplugged")));
+    asked.done.set_exception(std::make_exception_ptr(KinectError("was unplugged, or given up")));
   }
   asked_.clear();
 }
@@ -122,7 +122,7 @@ void KinectThread::apply_automatic(OpenKinect& kinect) {
 void KinectThread::watch(OpenKinect& kinect, StreamKind kind) {
   Stream& silent = stream(kind);
   std::optional<std::chrono::seconds> const waited = silent.watchdog.bark(Clock::now());
-  if (lost_ || !waited) {
+  if (!waited) {
     return;
   }
   ++silent.stalls;
