@@ -91,6 +91,20 @@ TEST(HotPlug, UnpluggedAndClosedBeforeItsStreamsAreStopped) {
   client.close();
 }
 
+TEST(HotPlug, ClosedBeforeItsStreamsAreDestroyed) {
+  Rig const rig({kinect("A")});
+  Client client("A");
+  ASSERT_EQ(client.depth.start(), openni::STATUS_OK) << openni_error();
+  ASSERT_TRUE(read(client.depth));
+  client.depth.stop();
+  client.device.close();
+  EXPECT_EQ(fake_usb::usage("A").open_handles, 0);
+  client.close();
+  Client again("A");
+  EXPECT_EQ(again.depth.start(), openni::STATUS_OK) << openni_error();
+  EXPECT_TRUE(read(again.depth));
+}
+
 // libfreenect starts it without a word, and nothing ever comes.
 TEST(HotPlug, UnpluggedWhileIdleAndThenStarted) {
   Rig const rig({kinect("A")});
