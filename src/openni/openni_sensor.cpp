@@ -93,12 +93,16 @@ public:
   Open(Open&&) = delete;
   Open& operator=(Open&&) = delete;
   ~Open() {
-    // OpenNI2's player of recordings has crashed where streams went while it still played.
     depth_.stop();
     color_.stop();
-    device_.close();
+    if (device_.isFile()) {
+      // OpenNI2's player of recordings has crashed where streams went while it still played.
+      device_.close();
+    }
+    // Before their device: OpenNI2 frees what they use with it, and knows of no stream that runs.
     depth_.destroy();
     color_.destroy();
+    device_.close();
   }
 
   [[nodiscard]] std::string const& uri() const { return uri_; }

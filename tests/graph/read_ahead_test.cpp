@@ -107,7 +107,8 @@ TEST(FirstFrame, IsNoneWhereNoFrameIsGood) {
 
 TEST(FirstFrame, OfASilentSourceIsNotWaitedFor) {
   ReadAhead source(std::make_unique<test::FakeSource>(9, [](std::int64_t index) -> SourceResult {
-    return FrameFailure{FrameIndex{index}, "stalled", "no frame", index == 1};
+    return FrameFailure{FrameIndex{index}, "stalled", "no frame",
+                        index == 1 ? Loss::kSilence : Loss::kBad};
   }));
   EXPECT_THROW(source.first_frame(), InputError);
 }
@@ -143,7 +144,8 @@ TEST(FindLevelAhead, LosesNoFrameAndFallsBackToTheConfigWithoutAFloor) {
 // Each of its failures would take seconds.
 TEST(FindLevelAhead, DoesNotWaitForASilentSource) {
   auto fake = std::make_unique<test::FakeSource>(9, [](std::int64_t index) -> SourceResult {
-    return FrameFailure{FrameIndex{index}, "stalled", "no frame", index == 3};
+    return FrameFailure{FrameIndex{index}, "stalled", "no frame",
+                        index == 3 ? Loss::kSilence : Loss::kBad};
   });
   test::FakeSource const& inner = *fake;
   ReadAhead source(std::move(fake));

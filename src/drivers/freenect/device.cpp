@@ -19,6 +19,12 @@ KinectDevice::KinectDevice(std::string const& serial, oni::driver::DriverService
   }
 }
 
+KinectDevice::~KinectDevice() {
+  kinect_.close();
+  delete depth_;
+  delete color_;
+}
+
 KinectSinks KinectDevice::sinks() {
   return {[this](std::span<std::uint16_t const> depths_mm, DepthCleaner const& cleaner,
                  std::uint64_t stamp_us) {
@@ -51,12 +57,11 @@ oni::driver::StreamBase* KinectDevice::createStream(OniSensorType sensor) {
     color_ = new ColorStream(kinect_, services_);
     return color_;
   }
-  services_.errorLoggerAppend("a Kinect has one stream of depth and one of colour");
+  append_error(services_, "a Kinect has one stream of depth and one of colour");
   return nullptr;
 }
 
 void KinectDevice::destroyStream(oni::driver::StreamBase* stream) {
-  // OpenNI closes a device without stopping its streams: none may deliver any more.
   stream->stop();
   if (stream == depth_) {
     depth_ = nullptr;

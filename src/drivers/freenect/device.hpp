@@ -15,6 +15,11 @@ class KinectDevice : public oni::driver::DeviceBase {
 public:
   /// Throws KinectError.
   KinectDevice(std::string const& serial, oni::driver::DriverServices& services);
+  KinectDevice(KinectDevice const&) = delete;
+  KinectDevice& operator=(KinectDevice const&) = delete;
+  KinectDevice(KinectDevice&&) = delete;
+  KinectDevice& operator=(KinectDevice&&) = delete;
+  ~KinectDevice() override;
 
   OniStatus getSensorInfoList(OniSensorInfo** infos, int* count) override;
   oni::driver::StreamBase* createStream(OniSensorType sensor) override;
@@ -26,6 +31,8 @@ public:
 
   [[nodiscard]] std::string const& serial() const { return serial_; }
   Kinect& kinect() { return kinect_; }
+  /// Whether OpenNI still has a stream of it.
+  [[nodiscard]] bool has_streams() const { return depth_ != nullptr || color_ != nullptr; }
 
 private:
   KinectSinks sinks();

@@ -101,7 +101,12 @@ void Driver::deviceClose(oni::driver::DeviceBase* device) {
     std::scoped_lock const lock(mutex_);
     std::erase_if(open_, [&](Opened const& opened) { return opened.device == device; });
   }
-  delete device;
+  std::unique_ptr<KinectDevice> kinect(static_cast<KinectDevice*>(device));
+  kinect->kinect().close();
+  if (kinect->has_streams()) {
+    std::scoped_lock const lock(mutex_);
+    closed_.push_back(std::move(kinect));
+  }
 }
 
 void Driver::shutdown() {
@@ -111,9 +116,9 @@ void Driver::shutdown() {
 OniStatus Driver::tryDevice(char const* uri) {
   if (std::string_view(uri).starts_with(kScheme)) {
     std::scoped_lock const lock(mutex_);
-    getServices().errorLoggerAppend("%s: no Kinect of this serial number is plugged in%s%s", uri,
-                                    unreadable_ > 0 ? "; " : "",
-                                    unreadable_ > 0 ? no_permission(unreadable_).c_str() : "");
+    append_error(getServices(), std::string(uri) +
+                                    ": no Kinect of this serial number is plugged in" +
+                                    (unreadable_ > 0 ? "; " + no_permission(unreadable_) : ""));
   }
   return ONI_STATUS_NO_DEVICE;
 }

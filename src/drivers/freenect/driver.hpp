@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -51,6 +52,8 @@ private:
   /// Held for what follows it, and never while OpenNI is called.
   std::mutex mutex_;
   std::vector<Opened> open_;
+  /// Closed, but OpenNI may still stop their streams: kept as long as the driver.
+  std::vector<std::unique_ptr<KinectDevice>> closed_;
   PresenceRecord present_;
   int unreadable_ = 0;
   Monitor monitor_;

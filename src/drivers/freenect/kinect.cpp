@@ -33,6 +33,13 @@ Kinect::Kinect(std::string const& serial, KinectSinks sinks)
 }
 
 Kinect::~Kinect() {
+  close();
+}
+
+void Kinect::close() {
+  if (!thread_.joinable()) {
+    return;
+  }
   state_->end();
   if (is_ready(ended_)) {
     thread_.join();
@@ -40,6 +47,7 @@ Kinect::~Kinect() {
     state_->abandon();
     thread_.detach();
   }
+  state_->set_lost();
 }
 
 void Kinect::start(StreamKind kind) {

@@ -22,13 +22,15 @@ public:
   Kinect& operator=(Kinect&&) = delete;
   ~Kinect();
 
+  /// No sink is called any more, both streams are stopped, and it counts as lost.
+  void close();
   void start(StreamKind kind);
   void stop(StreamKind kind);
   void set_registered(bool registered);
   /// Kept for when colour starts.
   void set_automatic(Automatic which, bool on);
 
-  /// Whether it was unplugged, or given up.
+  /// Whether it was unplugged, given up, or closed.
   [[nodiscard]] bool lost() const { return state_->lost(); }
   /// Others have seen that it is unplugged.
   void set_lost() { state_->set_lost(); }

@@ -7,7 +7,6 @@ namespace {
 
 /// How long a command may wait for the thread.
 constexpr auto kTick = std::chrono::milliseconds(20);
-constexpr auto kStallAfter = std::chrono::seconds(2);
 constexpr auto kTellingPatience = std::chrono::seconds(1);
 
 char const* name_of(StreamKind kind) {
@@ -40,7 +39,8 @@ void KinectThread::serve(OpenKinect& kinect) {
       lost_ = true;
       warn("was unplugged");
     }
-    watch(kinect);
+    watch(kinect, StreamKind::kDepth);
+    watch(kinect, StreamKind::kColor);
   }
 }
 
@@ -49,7 +49,7 @@ std::future<void> KinectThread::ask(Command command) {
   Asked asked{std::move(command), {}};
   std::future<void> done = asked.done.get_future();
   if (refuses_ || lost_) {
-    asked.done.set_exception(std::make_exception_ptr(KinectError("was unplugged")));
+    asked.done.set_exception(std::make_exception_ptr(KinectError("was unplugged, or given up")));
   } else {
     asked_.push_back(std::move(asked));
   }
@@ -78,29 +78,28 @@ void KinectThread::refuse_commands() {
   std::scoped_lock const lock(asking_);
   refuses_ = true;
   for (Asked& asked : asked_) {
-    asked.done.set_exception(std::make_exception_ptr(KinectError("was unplugged")));
+    asked.done.set_exception(std::make_exception_ptr(KinectError("was unplugged, or given up")));
   }
   asked_.clear();
 }
 
 void KinectThread::start(OpenKinect& kinect, StreamKind kind) {
   kinect.start(kind, registered_);
-  stream(kind).runs = true;
-  stream(kind).last_frame = Clock::now();
+  stream(kind).watchdog.start(Clock::now());
   if (kind == StreamKind::kColor) {
     apply_automatic(kinect);
   }
 }
 
 void KinectThread::stop(OpenKinect& kinect, StreamKind kind) {
-  stream(kind).runs = false;
+  stream(kind).watchdog.stop();
   kinect.stop(kind);
 }
 
 void KinectThread::set_registered(OpenKinect& kinect, bool registered) {
   bool const changes = registered != registered_;
   registered_ = registered;
-  if (changes && stream(StreamKind::kDepth).runs) {
+  if (changes && stream(StreamKind::kDepth).watchdog.runs()) {
     stop(kinect, StreamKind::kDepth);
     start(kinect, StreamKind::kDepth);
   }
@@ -114,30 +113,31 @@ void KinectThread::set_automatic(OpenKinect& kinect, Automatic which, bool on) {
 void KinectThread::apply_automatic(OpenKinect& kinect) {
   for (Automatic const which : {Automatic::kExposure, Automatic::kWhiteBalance}) {
     std::optional<bool> const on = automatic_.at(static_cast<std::size_t>(which));
-    if (on && stream(StreamKind::kColor).runs) {
+    if (on && stream(StreamKind::kColor).watchdog.runs()) {
       kinect.set_automatic(which, *on);
     }
   }
 }
 
-void KinectThread::watch(OpenKinect& kinect) {
-  for (StreamKind const kind : {StreamKind::kDepth, StreamKind::kColor}) {
-    Stream& silent = stream(kind);
-    if (lost_ || !silent.runs || Clock::now() - silent.last_frame < kStallAfter) {
-      continue;
+void KinectThread::watch(OpenKinect& kinect, StreamKind kind) {
+  Stream& silent = stream(kind);
+  std::optional<std::chrono::seconds> const waited = silent.watchdog.bark(Clock::now());
+  if (!waited) {
+    return;
+  }
+  ++silent.stalls;
+  std::string const words = log_.text();
+  warn(std::string("sent no ") + name_of(kind) + " for " + std::to_string(waited->count()) +
+       " s: starts it anew" + (words.empty() ? "" : " (libfreenect: " + words + ")"));
+  try {
+    // The watchdog stays as it is: it waits longer each time.
+    kinect.stop(kind);
+    kinect.start(kind, registered_);
+    if (kind == StreamKind::kColor) {
+      apply_automatic(kinect);
     }
-    ++silent.stalls;
-    std::string const words = log_.text();
-    warn(std::string("sent no ") + name_of(kind) + " for 2 s: starts it anew" +
-         (words.empty() ? "" : " (libfreenect: " + words + ")"));
-    try {
-      stop(kinect, kind);
-      start(kinect, kind);
-    } catch (KinectError const& error) {
-      silent.runs = true;  // to be tried again
-      silent.last_frame = Clock::now();
-      warn(error.what());
-    }
+  } catch (KinectError const& error) {
+    warn(error.what());
   }
 }
 
@@ -145,14 +145,14 @@ KinectEvents KinectThread::events() {
   return {[this](std::span<std::uint16_t const> depths_mm, std::uint32_t stamp) {
             std::uint64_t const stamp_us = frame_came(StreamKind::kDepth, stamp);
             std::scoped_lock const lock(telling_);
-            if (!abandoned_) {
+            if (!hushed_) {
               sinks_.depth(depths_mm, cleaner_, stamp_us);
             }
           },
           [this](std::span<std::uint8_t const> rgb, std::uint32_t stamp) {
             std::uint64_t const stamp_us = frame_came(StreamKind::kColor, stamp);
             std::scoped_lock const lock(telling_);
-            if (!abandoned_) {
+            if (!hushed_) {
               sinks_.color(rgb, stamp_us);
             }
           },
@@ -161,7 +161,7 @@ KinectEvents KinectThread::events() {
 
 std::uint64_t KinectThread::frame_came(StreamKind kind, std::uint32_t stamp) {
   auto const now = Clock::now();
-  stream(kind).last_frame = now;
+  stream(kind).watchdog.frame_came(now);
   return clock_.unwrap_us(
       stamp, std::chrono::duration_cast<std::chrono::microseconds>(now.time_since_epoch()).count());
 }
@@ -184,21 +184,25 @@ void KinectThread::take_log(std::string_view line, bool wrong) {
 
 void KinectThread::warn(std::string const& line) {
   std::scoped_lock const lock(telling_);
-  if (!abandoned_) {
+  if (!hushed_) {
     sinks_.warn(line);
   }
 }
 
-void KinectThread::abandon() {
-  // Whoever is told at this moment may take his time, but not for ever.
-  std::unique_lock const lock(telling_, kTellingPatience);
-  abandoned_ = true;
+void KinectThread::end() {
+  hushed_ = true;
+  wait_told();
   ending_ = true;
+}
+
+void KinectThread::abandon() {
+  end();
   lost_ = true;
 }
 
 void KinectThread::wait_told() {
   if (!is_this_thread()) {
+    // Whoever is told at this moment may take his time, but not for ever.
     std::unique_lock const lock(telling_, kTellingPatience);
   }
 }

@@ -17,6 +17,7 @@
 #include "drivers/freenect/depth_cleaning.hpp"
 #include "drivers/freenect/log_lines.hpp"
 #include "drivers/freenect/open_kinect.hpp"
+#include "drivers/freenect/watchdog.hpp"
 
 namespace credo::freenect {
 
@@ -37,7 +38,7 @@ struct StreamCounts {
   int lost_packets = 0;
   /// Frames given up, as more packets were lost.
   int dropped_frames = 0;
-  /// How often nothing came for 2 s; the stream was then started anew.
+  /// How often nothing came for too long (see Watchdog); the stream was then started anew.
   int stalls = 0;
 };
 
@@ -62,9 +63,9 @@ public:
   void set_registered(OpenKinect& kinect, bool registered);
   void set_automatic(OpenKinect& kinect, Automatic which, bool on);
 
-  /// Asks the thread to close the Kinect and to end.
-  void end() { ending_ = true; }
-  /// The thread is no more waited for; the sinks hear nothing any more.
+  /// Asks the thread to close the Kinect and to end; the sinks hear nothing from now on.
+  void end();
+  /// The thread is no more waited for, and the Kinect counts as lost.
   void abandon();
   /// Returns once no sink is at work that was called before.
   void wait_told();
@@ -76,11 +77,10 @@ public:
   [[nodiscard]] bool is_this_thread() const { return id_ == std::this_thread::get_id(); }
 
 private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = Watchdog::Clock;
 
   struct Stream {
-    bool runs = false;
-    Clock::time_point last_frame;
+    Watchdog watchdog;
     std::atomic<int> lost_packets = 0;
     std::atomic<int> dropped_frames = 0;
     std::atomic<int> stalls = 0;
@@ -94,7 +94,7 @@ private:
   void serve(OpenKinect& kinect);
   void run_commands(OpenKinect& kinect);
   void refuse_commands();
-  void watch(OpenKinect& kinect);
+  void watch(OpenKinect& kinect, StreamKind kind);
   void take_log(std::string_view line, bool wrong);
   void warn(std::string const& line);
   std::uint64_t frame_came(StreamKind kind, std::uint32_t stamp);
@@ -115,7 +115,7 @@ private:
   // Held while the sinks are called.
   std::timed_mutex telling_;
   KinectSinks sinks_;
-  std::atomic<bool> abandoned_ = false;
+  std::atomic<bool> hushed_ = false;
 
   // The thread's own, but for the counts.
   std::array<Stream, 2> streams_;

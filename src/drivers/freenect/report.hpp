@@ -8,6 +8,11 @@
 
 namespace credo::freenect {
 
+/// To OpenNI's getExtendedError().
+inline void append_error(oni::driver::DriverServices& services, std::string const& text) {
+  services.errorLoggerAppend("%s", text.c_str());  // NOLINT(cppcoreguidelines-pro-type-vararg)
+}
+
 /// Does what may throw KinectError; its text becomes OpenNI's, for its getExtendedError().
 template <typename Action>
 OniStatus reported(oni::driver::DriverServices& services, Action&& action) {
@@ -15,7 +20,7 @@ OniStatus reported(oni::driver::DriverServices& services, Action&& action) {
     action();
     return ONI_STATUS_OK;
   } catch (std::exception const& error) {
-    services.errorLoggerAppend("%s", error.what());
+    append_error(services, error.what());
     return ONI_STATUS_ERROR;
   }
 }

@@ -213,6 +213,22 @@ TEST(Chain, StartsAndStopsFiftyTimes) {
   EXPECT_EQ(fake_usb::usage("A").misuses, 0);
 }
 
+TEST(Chain, OneModeAndItsRanges) {
+  Rig const rig({kinect("A")});
+  Client client("A");
+  openni::VideoMode mode = client.depth.getVideoMode();
+  EXPECT_EQ(client.depth.setVideoMode(mode), openni::STATUS_OK) << openni_error();
+  mode.setResolution(320, 240);
+  EXPECT_NE(client.depth.setVideoMode(mode), openni::STATUS_OK);
+  EXPECT_NE(client.depth.setCropping(0, 0, 320, 240), openni::STATUS_OK);
+  EXPECT_EQ(client.depth.resetCropping(), openni::STATUS_OK) << openni_error();
+  EXPECT_EQ(client.depth.getMinPixelValue(), 0);
+  EXPECT_EQ(client.depth.getMaxPixelValue(), 9999);
+  EXPECT_EQ(client.color.getMaxPixelValue(), 255);
+  double const half_rad = 0.5 * static_cast<double>(client.depth.getVerticalFieldOfView());
+  EXPECT_NEAR(240 / std::tan(half_rad), 575.8, 0.01);
+}
+
 TEST(Chain, AutomaticExposureAndWhiteBalance) {
   constexpr std::uint16_t kExposure = 1U << 14;
   constexpr std::uint16_t kWhiteBalance = 1U << 1;

@@ -72,6 +72,21 @@ TEST(ClockUnwrapper, AResetDeviceGoesOnByTheHost) {
   EXPECT_EQ(clock.unwrap_us(stamp_at(33'433), 2'033'333), 52'033'333U);
 }
 
+// Less than a late stamp may be off, but streams do not overtake each other so far.
+TEST(ClockUnwrapper, AResetSoonAfterTheStartGoesOnByTheHost) {
+  ClockUnwrapper clock;
+  clock.unwrap_us(stamp_at(5'000'000), 0);
+  EXPECT_EQ(clock.unwrap_us(stamp_at(100), 33'333), 5'033'333U);
+}
+
+// Not step by step either.
+TEST(ClockUnwrapper, NothingIsMoreThanASecondBehindTheNewest) {
+  ClockUnwrapper clock;
+  clock.unwrap_us(stamp_at(10'000'000), 0);
+  EXPECT_EQ(clock.unwrap_us(stamp_at(9'400'000), 100), 9'400'000U);
+  EXPECT_EQ(clock.unwrap_us(stamp_at(8'800'000), 200), 10'000'200U);
+}
+
 TEST(ClockUnwrapper, AJumpAheadIsNoTimeEither) {
   ClockUnwrapper clock;
   clock.unwrap_us(stamp_at(1'000'000), 0);

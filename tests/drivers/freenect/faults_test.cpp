@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "drivers/freenect/kinect.hpp"
@@ -87,6 +88,8 @@ TEST_P(Stalls, ASilentStreamIsStartedAnew) {
   openni::VideoStream& silent = of_depth ? client.depth : client.color;
   openni::VideoStream& other = of_depth ? client.color : client.depth;
   ASSERT_TRUE(read(silent));
+  EXPECT_EQ(client.color.getCameraSettings()->setAutoExposureEnabled(false), openni::STATUS_OK);
+  std::uint16_t const flags = fake_usb::usage("A").color_flags;
   fake_usb::stall("A", GetParam());
   auto const deadline = Clock::now() + kPatience;
   while (property(silent, kStallsProperty) == 0 && Clock::now() < deadline) {
@@ -101,6 +104,7 @@ TEST_P(Stalls, ASilentStreamIsStartedAnew) {
   EXPECT_EQ(property(other, kStallsProperty), 0);
   EXPECT_EQ(fake_usb::usage("A").depth_starts, of_depth ? 2 : 1);
   EXPECT_EQ(fake_usb::usage("A").color_starts, of_depth ? 1 : 2);
+  EXPECT_EQ(fake_usb::usage("A").color_flags, flags) << "as it was set";
 }
 
 INSTANTIATE_TEST_SUITE_P(Streams, Stalls, ::testing::Values(Stream::kDepth, Stream::kColor));
@@ -149,6 +153,8 @@ TEST(Faults, AKinectThatFallsSilentIsGivenUpAndReported) {
   EXPECT_NE(client.color.start(), openni::STATUS_OK);
   EXPECT_THAT(openni_error(), HasSubstr("Kinect A does not answer"));
   EXPECT_TRUE(events.wait_for("-" + uri_of("A")));
+  EXPECT_NE(client.color.start(), openni::STATUS_OK);
+  EXPECT_THAT(openni_error(), HasSubstr("Kinect A was unplugged, or given up")) << "not asked";
   auto const begin = Clock::now();
   client.close();
   EXPECT_LT(Clock::now() - begin, kPatience);
@@ -217,6 +223,47 @@ TEST(Faults, ClosingStopsBothStreams) {
   EXPECT_EQ(fake_usb::usage("A").transfers_in_flight, 0);
   EXPECT_EQ(fake_usb::usage("A").open_handles, 0);
   EXPECT_EQ(fake_usb::usage("A").misuses, 0);
+  fake_usb::unplug("A");
+}
+
+// No look at the bus is needed for that.
+TEST(Faults, AStreamTellsOfUnplugging) {
+  fake_usb::plug(kinect("A"));
+  std::atomic<bool> told = false;
+  freenect::Kinect open("A", {[](auto, auto const&, auto) {}, [](auto, auto) {},
+                              [&](std::string const& line) { told = line == "was unplugged"; }});
+  open.start(freenect::StreamKind::kDepth);
+  EXPECT_FALSE(open.lost());
+  fake_usb::unplug("A");
+  auto const deadline = Clock::now() + kPatience;
+  while (!told && Clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_TRUE(told);
+  EXPECT_TRUE(open.lost());
+}
+
+// Frames of both streams are there at once; whoever hears of the first ends it all.
+TEST(Faults, NothingIsToldFromTheEndOn) {
+  fake_usb::plug(kinect("A"));
+  std::optional<freenect::KinectThread> thread;
+  int told = 0;
+  auto const tell = [&] {
+    ++told;
+    thread->end();
+  };
+  thread.emplace("A", freenect::KinectSinks{[&](auto, auto const&, auto) { tell(); },
+                                            [&](auto, auto) { tell(); }, [](auto const&) {}});
+  thread->ask([&](freenect::OpenKinect& open) {
+    thread->start(open, freenect::StreamKind::kDepth);
+    thread->start(open, freenect::StreamKind::kColor);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  });
+  thread->run();
+  EXPECT_EQ(told, 1);
+  EXPECT_EQ(fake_usb::usage("A").open_handles, 0);
+  EXPECT_EQ(fake_usb::usage("A").misuses, 0);
+  fake_usb::unplug("A");
 }
 
 }  // namespace

@@ -76,6 +76,35 @@ TEST(HotPlug, UnpluggedWhileItStreamsAndPluggedInAgain) {
   }
 }
 
+// In the wrong order: OpenNI still stops the streams of the closed device.
+TEST(HotPlug, UnpluggedAndClosedBeforeItsStreamsAreStopped) {
+  Rig const rig({kinect("A")});
+  Events events;
+  Client client("A");
+  ASSERT_EQ(client.depth.start(), openni::STATUS_OK) << openni_error();
+  ASSERT_EQ(client.color.start(), openni::STATUS_OK) << openni_error();
+  ASSERT_TRUE(read(client.depth) && read(client.color));
+  fake_usb::unplug("A");
+  EXPECT_TRUE(events.wait_for("-" + uri_of("A")));
+  client.device.close();
+  EXPECT_EQ(fake_usb::usage("A").open_handles, 0);
+  client.close();
+}
+
+TEST(HotPlug, ClosedBeforeItsStreamsAreDestroyed) {
+  Rig const rig({kinect("A")});
+  Client client("A");
+  ASSERT_EQ(client.depth.start(), openni::STATUS_OK) << openni_error();
+  ASSERT_TRUE(read(client.depth));
+  client.depth.stop();
+  client.device.close();
+  EXPECT_EQ(fake_usb::usage("A").open_handles, 0);
+  client.close();
+  Client again("A");
+  EXPECT_EQ(again.depth.start(), openni::STATUS_OK) << openni_error();
+  EXPECT_TRUE(read(again.depth));
+}
+
 // libfreenect starts it without a word, and nothing ever comes.
 TEST(HotPlug, UnpluggedWhileIdleAndThenStarted) {
   Rig const rig({kinect("A")});

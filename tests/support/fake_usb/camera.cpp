@@ -15,7 +15,7 @@ constexpr std::size_t kColorPayload = 1908;
 constexpr std::uint16_t kColorSwitch = 0x05;
 constexpr std::uint16_t kDepthSwitch = 0x06;
 constexpr std::uint16_t kColorFlags = 0x106;
-/// Automatic exposure and white balance are on when it is plugged in.
+/// Automatic exposure and white balance are on whenever colour starts.
 constexpr std::uint16_t kColorFlagsAtFirst = 1U << 14 | 1U << 1;
 
 enum Command : std::uint16_t {
@@ -53,8 +53,9 @@ std::vector<Bytes> packed_all(std::vector<std::vector<std::uint16_t>> const& ima
 Camera::Camera(Kinect kinect)
     : serial_(std::move(kinect.serial)),
       pace_{Clock::now(), kinect.rate_hz, kinect.first_stamp},
-      depth_(0x70, kDepthPayload, 0, packed_all(kinect.images.depth_raw)),
-      color_(0x80, kColorPayload, kColorDelay_ticks, std::move(kinect.images.color_bayer)) {
+      depth_(0x70, kDepthPayload, 0, 0, packed_all(kinect.images.depth_raw)),
+      color_(0x80, kColorPayload, kColorDelay_ticks, kinect.color_lead,
+             std::move(kinect.images.color_bayer)) {
   color_registers_[kColorFlags] = kColorFlagsAtFirst;
 }
 
@@ -106,6 +107,9 @@ void Camera::write_register(std::uint16_t address, std::uint16_t value, Clock::t
     stream.stop();
   } else {
     ++(address == kDepthSwitch ? depth_starts_ : color_starts_);
+    if (address == kColorSwitch) {
+      color_registers_[kColorFlags] = kColorFlagsAtFirst;
+    }
     stream.start(pace_, now);
   }
 }

@@ -25,6 +25,8 @@ struct Kinect {
   /// the streams run or not.
   Images images;
   double rate_hz = 30;
+  /// Colour's packets come so much of a frame's time earlier than they would.
+  double color_lead = 0;
   /// What its clock of 60 MHz says at frame 0.
   std::uint32_t first_stamp = 0;
 };

@@ -47,10 +47,11 @@ std::uint32_t Pace::stamp(std::int64_t frame) const {
 }
 
 PacketStream::PacketStream(std::uint8_t id, std::size_t payload_bytes, std::uint32_t delay_ticks,
-                           std::vector<Bytes> frames)
+                           double lead, std::vector<Bytes> frames)
     : id_(id),
       payload_bytes_(payload_bytes),
       delay_ticks_(delay_ticks),
+      lead_(lead),
       frames_(std::move(frames)) {}
 
 void PacketStream::start(Pace const& pace, Clock::time_point now) {
@@ -74,7 +75,7 @@ Clock::time_point PacketStream::due(Pace const& pace, int packets) const {
   std::size_t const needed = packet_ + static_cast<std::size_t>(packets);
   std::size_t const sent = (needed + kBurst - 1) / kBurst * kBurst;
   double const share = static_cast<double>(sent) / static_cast<double>(packets_per_frame());
-  return pace.frame_start(static_cast<double>(frame_) + share);
+  return pace.frame_start(static_cast<double>(frame_) + share - lead_);
 }
 
 Bytes PacketStream::next(Pace const& pace) {

@@ -30,8 +30,9 @@ struct Pace {
 /// The packets of one stream: each frame cut into packets of equal size, each with a header.
 class PacketStream {
 public:
-  /// `id`: 0x70 for depth, 0x80 for colour. `frames`: what it shows, over and over.
-  PacketStream(std::uint8_t id, std::size_t payload_bytes, std::uint32_t delay_ticks,
+  /// `id`: 0x70 for depth, 0x80 for colour. `lead`: packets come so many frames early. `frames`:
+  /// what it shows, over and over.
+  PacketStream(std::uint8_t id, std::size_t payload_bytes, std::uint32_t delay_ticks, double lead,
                std::vector<Bytes> frames);
 
   void start(Pace const& pace, Clock::time_point now);
@@ -51,6 +52,7 @@ private:
   std::uint8_t id_;
   std::size_t payload_bytes_;
   std::uint32_t delay_ticks_;
+  double lead_;
   std::vector<Bytes> frames_;
   bool running_ = false;
   bool stalled_ = false;
