@@ -108,6 +108,7 @@ public:
   [[nodiscard]] std::string const& uri() const { return uri_; }
   [[nodiscard]] bool has_color() const { return color_.isValid(); }
   [[nodiscard]] std::vector<std::string> const& warnings() const { return warnings_; }
+  [[nodiscard]] bool is_recording() const { return device_.isFile(); }
   [[nodiscard]] bool says_registered() const {
     return device_.getImageRegistrationMode() == openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
   }
@@ -307,6 +308,9 @@ DepthOptics OpenniSensor::color_optics() const {
 }
 bool OpenniSensor::has_color() const {
   return open_->has_color();
+}
+bool OpenniSensor::is_recording() const {
+  return open_->is_recording();
 }
 bool OpenniSensor::says_registered() const {
   return open_->says_registered();

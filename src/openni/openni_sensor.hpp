@@ -58,6 +58,8 @@ public:
   [[nodiscard]] bool has_color() const;
   /// Of the colour camera; only where there is one.
   [[nodiscard]] DepthOptics color_optics() const;
+  /// A recording that OpenNI2 plays: of registration it knows nothing.
+  [[nodiscard]] bool is_recording() const;
   /// Whether the sensor says that its depth is registered to its colour camera; asked anew.
   [[nodiscard]] bool says_registered() const;
   /// What was asked for and could not be had, one line each.

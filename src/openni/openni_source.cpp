@@ -219,9 +219,7 @@ private:
   void check_registration(Grid<float> const& depth_m, Grid<Rgb> const& color) {
     if (config_.registration == RegistrationMode::kAuto && !registers_here_ &&
         check_.add(depth_m, color) == Registration::kUnregistered) {
-      tell(
-          "says that its depth is registered, and its images show that it is not: it is "
-          "registered here from now on");
+      tell("its images show that its depth is not registered: it is registered here from now on");
       register_here();
     }
   }
@@ -243,8 +241,8 @@ private:
   void settle_registration() {
     DepthOptics const optics = sensor_->optics();
     check_ = RegistrationCheck(kinect_calibration_of(optics));
-    bool const cannot =
-        config_.registration == RegistrationMode::kAuto && !sensor_->says_registered();
+    bool const cannot = config_.registration == RegistrationMode::kAuto &&
+                        !sensor_->says_registered() && !sensor_->is_recording();
     registers_here_ = false;
     if (sensor_->has_color() && (cannot || config_.registration == RegistrationMode::kSoftware)) {
       register_here();

@@ -65,13 +65,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadUsage{"NoFolder",
                  {"run", "--source", "dataset:/nowhere"},
                  "dataset /nowhere: no such folder"},
-        BadUsage{"NoScene",
-                 {"run", "--source", "sim:nowhere"},
-                 "sim:nowhere: no such scene or file; scenes are bottle-moves, box-on-table, "
-                 "cluttered-table, corridor-loop, first-light, pen-on-table, room-of-200, "
-                 "swap-and-occlude, table-before-wall, thesis-3.4.1, "
-                 "thesis-3.4.2, thesis-3.4.3, thesis-3.4.4, thesis-4.4.1, thesis-4.4.2, "
-                 "thesis-4.4.3, thesis-4.4.4, wall-and-floor"},
+        BadUsage{
+            "NoScene",
+            {"run", "--source", "sim:nowhere"},
+            "sim:nowhere: no such scene or file; scenes are bottle-moves, box-on-table, "
+            "cluttered-table, corridor-loop, first-light, flush-boxes, pen-on-table, room-of-200, "
+            "swap-and-occlude, table-before-wall, thesis-3.4.1, "
+            "thesis-3.4.2, thesis-3.4.3, thesis-3.4.4, thesis-4.4.1, thesis-4.4.2, "
+            "thesis-4.4.3, thesis-4.4.4, wall-and-floor"},
         BadUsage{"PosesOfASimulation", sim_with({"--set", "pose.source=file"}),
                  "scene first-light: a simulated camera has its own poses; pose.source must not be "
                  "file"},

@@ -278,7 +278,7 @@ TEST(Scene, IsFoundByNameOrFile) {
   EXPECT_EQ(
       error_of([&] { find_scene("nowhere"); }),
       "sim:nowhere: no such scene or file; scenes are bottle-moves, box-on-table, cluttered-table, "
-      "corridor-loop, first-light, pen-on-table, room-of-200, swap-and-occlude, "
+      "corridor-loop, first-light, flush-boxes, pen-on-table, room-of-200, swap-and-occlude, "
       "table-before-wall, thesis-3.4.1, thesis-3.4.2, thesis-3.4.3, "
       "thesis-3.4.4, thesis-4.4.1, thesis-4.4.2, thesis-4.4.3, thesis-4.4.4, wall-and-floor");
   EXPECT_NE(error_of([&] { find_scene("../scenes/first-light"); }), "no error")
