@@ -98,7 +98,8 @@ TEST_F(OpenniSource, SilenceIsAFailureAndStopsOnRequest) {
   bytes.resize(bytes.size() - 28);
   write_text(folder_ / "a.oni", bytes);
   std::stop_source stop;
-  OpenedSource const opened = open_openni((folder_ / "a.oni").string(), {}, {}, {}, {}, stop.get_token());
+  OpenedSource const opened =
+      open_openni((folder_ / "a.oni").string(), {}, {}, {}, {}, stop.get_token());
   SourceResult result = opened.source->next();
   while (std::holds_alternative<FramePtr>(result)) {
     result = opened.source->next();
