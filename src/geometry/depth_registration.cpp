@@ -134,7 +134,7 @@ Grid<float> register_depth(Grid<float> const& depth_m, DepthCalibration const& c
   nearest.depth_m.pop_back();
   std::ranges::transform(nearest.depth_m, nearest.depth_m.begin(),
                          [](float depth) { return depth < kEmpty ? depth : 0.0F; });
-  return {width, height, std::move(nearest.depth_m)};
+  return {width, height, nearest.depth_m};
 }
 
 }  // namespace credo

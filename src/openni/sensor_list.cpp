@@ -2,6 +2,8 @@
 
 #include <OpenNI.h>
 
+#include <cstddef>
+
 #include "openni/openni_error.hpp"
 
 namespace credo {
@@ -95,6 +97,7 @@ std::vector<SensorInfo> list_sensors() {
   openni::Array<openni::DeviceInfo> infos;
   openni::OpenNI::enumerateDevices(&infos);
   std::vector<SensorInfo> sensors;
+  sensors.reserve(static_cast<std::size_t>(infos.getSize()));
   for (int i = 0; i < infos.getSize(); ++i) {
     sensors.push_back(info_of(infos[i]));
   }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kMaxRate_hz = 1000.0;
 
 std::string name_of(JsonValue const& value) {
-  std::string const name = value.text();
+  std::string name = value.text();
   bool const plain = std::ranges::all_of(name, [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
   });

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -26,9 +27,12 @@ constexpr auto kWatchEvery = std::chrono::milliseconds(10);
 
 OniDeviceInfo info_of(VirtualSensor const& sensor) {
   OniDeviceInfo info{};
-  std::snprintf(info.uri, sizeof info.uri, "%s", sensor.uri().c_str());
-  std::snprintf(info.vendor, sizeof info.vendor, "Credo");
-  std::snprintf(info.name, sizeof info.name, "Virtual sensor");
+  auto const write = [](std::string const& text, std::span<char> field) {
+    text.copy(field.data(), field.size() - 1);  // the rest is 0
+  };
+  write(sensor.uri(), info.uri);
+  write("Credo", info.vendor);
+  write("Virtual sensor", info.name);
   return info;
 }
 
@@ -129,7 +133,9 @@ public:
 
 private:
   /// OpenNI2 goes on right behind it.
-  void say(std::string const& text) { getServices().errorLoggerAppend("%s. ", text.c_str()); }
+  void say(std::string const& text) {
+    getServices().errorLoggerAppend("%s. ", text.c_str());  // NOLINT(*-vararg): OpenNI2's way
+  }
 
   /// Tells of sensors that come and go. Holds no lock while it does: listeners may close devices.
   void watch(std::stop_token const& stop) {
