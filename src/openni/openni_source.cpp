@@ -262,6 +262,7 @@ private:
     sensor_.reset();
     pairing_.clear();
     missed_ = 0;
+    why_.clear();
     lost_at_ = Clock::now();
     retry_ = kFirstRetry;
     retry_at_ = lost_at_ + retry_;
@@ -308,7 +309,7 @@ private:
     return true;
   }
 
-  /// As it was asked for, and as OpenNI2 names it.
+  /// As OpenNI2 names it, once it was opened.
   std::string uri_;
   CaptureConfig capture_;
   SensorConfig config_;

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "drivers/freenect/kinect.hpp"
-#include "drivers/freenect/openni_driver_api.hpp"
 #include "drivers/freenect/stream.hpp"
+#include "drivers/openni_driver_api.hpp"
 
 namespace credo::freenect {
 

@@ -8,8 +8,8 @@
 #include "drivers/freenect/bus.hpp"
 #include "drivers/freenect/device.hpp"
 #include "drivers/freenect/monitor.hpp"
-#include "drivers/freenect/openni_driver_api.hpp"
 #include "drivers/freenect/presence.hpp"
+#include "drivers/openni_driver_api.hpp"
 
 namespace credo::freenect {
 

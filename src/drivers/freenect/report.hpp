@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "drivers/freenect/openni_driver_api.hpp"
+#include "drivers/openni_driver_api.hpp"
 
 namespace credo::freenect {
 

@@ -7,7 +7,7 @@
 
 #include "drivers/freenect/depth_cleaning.hpp"
 #include "drivers/freenect/kinect.hpp"
-#include "drivers/freenect/openni_driver_api.hpp"
+#include "drivers/openni_driver_api.hpp"
 
 namespace credo::freenect {
 

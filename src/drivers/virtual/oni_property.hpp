@@ -3,7 +3,7 @@
 #include <cstring>
 #include <optional>
 
-#include "drivers/virtual/oni_driver.hpp"
+#include "drivers/openni_driver_api.hpp"
 
 namespace credo {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "drivers/virtual/oni_driver.hpp"
+#include "drivers/openni_driver_api.hpp"
 #include "drivers/virtual/virtual_stream.hpp"
 
 namespace credo {

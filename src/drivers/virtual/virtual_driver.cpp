@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/virtual/oni_driver.hpp"
+#include "drivers/openni_driver_api.hpp"
 #include "drivers/virtual/sensor_script.hpp"
 #include "drivers/virtual/virtual_device.hpp"
 #include "drivers/virtual/virtual_sensor.hpp"

@@ -6,8 +6,8 @@
 #include <stop_token>
 #include <thread>
 
+#include "drivers/openni_driver_api.hpp"
 #include "drivers/virtual/image_view.hpp"
-#include "drivers/virtual/oni_driver.hpp"
 #include "drivers/virtual/virtual_sensor.hpp"
 
 namespace credo {
