@@ -153,7 +153,10 @@ TEST_F(VirtualSource, WithoutColourDepthGoesOn) {
 TEST_F(VirtualSource, AnUnpluggedSensorIsLookedForAndFound) {
   SensorConfig config;
   config.stall_s = 1;
-  open(R"({"fault": "unplug", "at_frame": 10, "for_s": 2.5})", config);
+  // Plugged in again, its clock is another's: that is no jump.
+  open(R"({"fault": "unplug", "at_frame": 10, "for_s": 2.5},
+          {"fault": "clock_jump", "by_s": 20, "at_s": 1.5})",
+       config);
   Seen const seen = read_until(4);
   EXPECT_EQ(seen.lost_by("unplugged"), 1);
   EXPECT_THAT(seen.lost_by("away"), AllOf(Ge(1), Le(4)));
