@@ -47,7 +47,7 @@ public:
   /// Between the cells whose side is 1 and those whose side is -1; 0 is neither.
   [[nodiscard]] std::optional<ColorCut> between(std::vector<int> const& sides) const {
     std::vector<std::size_t> const border = border_of(sides);
-    std::optional<ColorCut> const cut = fitted(border, sides);
+    std::optional<ColorCut> cut = fitted(border, sides);
     if (!cut || misplaced(border, sides, *cut) > kMisplacedAtBorder ||
         misplaced(all(), sides, *cut) > kMisplaced || !is_large(*cut) || !is_flat(*cut)) {
       return std::nullopt;
@@ -191,7 +191,7 @@ std::optional<ColorCut> color_cut(std::span<ColorCell const> cells, double apart
   for (int mode = 0; mode < modes->count; ++mode) {
     std::ranges::transform(modes->of_cell, sides.begin(),
                            [&](int of) { return of < 0 ? 0 : (of == mode ? 1 : -1); });
-    if (auto const cut = cutter.between(sides)) {
+    if (std::optional<ColorCut> cut = cutter.between(sides)) {
       return cut;
     }
   }

@@ -1,5 +1,6 @@
 #include "stages/segments/segments.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 namespace credo {
@@ -73,20 +74,23 @@ FieldList crease_fields(SegmentsConfig& config) {
        "px",
        "planes on both sides of a border are fitted in discs of this radius"},
       {"min_pixels", &config.min_pixels, {1, 1e6}, "px", "smaller parts go to what they touch"},
+  };
+}
+
+FieldList thing_fields(SegmentsConfig& config) {
+  return {
       {"join_parts",
        &config.join_parts,
        {},
        "",
        "the inside and the outside of a vessel are one thing, and so is a thing with its handle, "
-       "cap or "
-       "neck"},
+       "cap or neck"},
       {"color_apart",
        &config.color_apart,
        {0, 1},
        "",
        "things without a crease between them come apart by colours that differ by more, in shares "
-       "of "
-       "red and green, where colour is registered; 0 leaves colour out"},
+       "of red and green, where colour is registered; 0 leaves colour out"},
       {"raised_quanta",
        &config.raised_quanta,
        {0, 100},
@@ -104,9 +108,8 @@ FieldList crease_fields(SegmentsConfig& config) {
 
 FieldList fields(SegmentsConfig& config) {
   FieldList all = surface_fields(config);
-  FieldList creases = crease_fields(config);
-  all.insert(all.end(), std::make_move_iterator(creases.begin()),
-             std::make_move_iterator(creases.end()));
+  std::ranges::move(crease_fields(config), std::back_inserter(all));
+  std::ranges::move(thing_fields(config), std::back_inserter(all));
   return all;
 }
 
