@@ -24,7 +24,7 @@ def run(credo, drivers, out, seconds):
     """What the program measured, and what the sensor handed out and passed over."""
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
-    scene = ROOT / "scenes" / "cluttered-table.yaml"
+    scene = ROOT / "scenes" / "live" / "table.yaml"
     subprocess.run([credo, "simulate", scene, "--out", out / "data"], check=True)
     sensor = {"name": "soak", "dataset": "data", "rate_hz": RATE_HZ, "play": "ping_pong", "report": True}
     (out / "sensor.json").write_text(json.dumps({"sensors": [sensor]}))

@@ -56,7 +56,7 @@ std::vector<std::string> const& allowed_rooms(std::string const& room) {
       {"config", {"core", "config"}},
       {"io", {"core", "io"}},
       {"openni", {"core", "geometry", "io", "openni"}},
-      {"drivers", {"core", "io", "drivers"}},
+      {"drivers", {"core", "geometry", "io", "drivers"}},
       {"dds", {"core", "dds"}},
       {"sim", {"core", "geometry", "io", "sim"}},
       {"eval", {"core", "geometry", "io", "eval"}},

@@ -1,16 +1,17 @@
 #include "drivers/virtual/sensor_images.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/capture_config.hpp"
 #include "core/error.hpp"
+#include "geometry/depth_registration.hpp"
 #include "io/image.hpp"
 #include "io/intrinsics.hpp"
 
 namespace credo {
 namespace {
 
-constexpr double kBaseline_mm = 25.0;
 constexpr std::uint16_t kInvalidCount = 65535;
 
 std::string size_text(int width, int height) {
@@ -60,21 +61,29 @@ SensorImages SensorDataset::read(std::size_t image) const {
   return images;
 }
 
-Grid<std::uint16_t> unregistered(Grid<std::uint16_t> const& depth_mm, double fx_px) {
-  Grid<std::uint16_t> seen(depth_mm.width(), depth_mm.height());
-  for (int v = 0; v < depth_mm.height(); ++v) {
-    for (int u = 0; u < depth_mm.width(); ++u) {
-      std::uint16_t const depth = depth_mm[{u, v}];
-      if (depth == 0) {
-        continue;
-      }
-      Pixel const target{u + static_cast<int>(std::lround(fx_px * kBaseline_mm / depth)), v};
-      if (seen.contains(target) && (seen[target] == 0 || depth < seen[target])) {
-        seen[target] = depth;
-      }
-    }
-  }
-  return seen;
+CameraIntrinsics infrared_of(CameraIntrinsics const& color) {
+  DepthCalibration const kinect = kinect_calibration();
+  CameraIntrinsics infrared = color;
+  infrared.fx_px *= kinect.depth.fx_px / kinect.color.fx_px;
+  infrared.fy_px *= kinect.depth.fy_px / kinect.color.fy_px;
+  return infrared;
+}
+
+Grid<std::uint16_t> unregistered(Grid<std::uint16_t> const& depth_mm,
+                                 CameraIntrinsics const& color) {
+  Grid<float> depth_m(depth_mm.width(), depth_mm.height());
+  std::ranges::transform(depth_mm, depth_m.begin(),
+                         [](std::uint16_t mm) { return static_cast<float>(mm) / 1000.0F; });
+  // The other way round: from the colour camera into the infrared one.
+  DepthCalibration const calibration{.depth = color,
+                                     .color = infrared_of(color),
+                                     .T_color_depth = kinect_calibration().T_color_depth.inverse()};
+  depth_m = register_depth(depth_m, calibration, depth_mm.width(), depth_mm.height());
+  Grid<std::uint16_t> seen_mm(depth_mm.width(), depth_mm.height());
+  std::ranges::transform(depth_m, seen_mm.begin(), [](float z_m) {
+    return static_cast<std::uint16_t>(std::lround(1000.0F * z_m));
+  });
+  return seen_mm;
 }
 
 }  // namespace credo

@@ -45,9 +45,12 @@ private:
   CameraIntrinsics intrinsics_;
 };
 
-/// Depth of a camera that stands a Kinect's 25 mm to the left of the colour camera and looks the
-/// same way, with the same lens: what is nearer lies farther to the right. 0 where it sees what the
-/// colour camera does not. The nearest of what falls on one pixel stays.
-Grid<std::uint16_t> unregistered(Grid<std::uint16_t> const& depth_mm, double fx_px);
+/// The lens of the infrared camera beside that colour camera: as much longer as a Kinect's.
+CameraIntrinsics infrared_of(CameraIntrinsics const& color);
+
+/// Depth as the infrared camera sees it, which stands a Kinect's 25 mm to the left of the colour
+/// camera and looks the same way. 0 where it sees what the colour camera does not.
+Grid<std::uint16_t> unregistered(Grid<std::uint16_t> const& depth_mm,
+                                 CameraIntrinsics const& color);
 
 }  // namespace credo

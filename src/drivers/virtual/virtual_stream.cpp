@@ -30,9 +30,9 @@ VirtualStream::VirtualStream(OpenedSensor& device, SensorStream kind)
     : device_(device), kind_(kind) {}
 
 OniStatus VirtualStream::start() {
-  if (!device_.sensor.script().keeps_settings) {
-    std::scoped_lock const lock(mutex_);
-    settings_ = {};
+  if (kind_ == SensorStream::kColor && !device_.sensor.script().keeps_settings) {
+    std::scoped_lock const lock(device_.mutex);
+    device_.camera = {};
   }
   stop();
   thread_ = std::jthread([this](std::stop_token const& stop) { run(stop); });
@@ -110,7 +110,7 @@ void VirtualStream::fill(OniFrame& frame, SensorImages const& images,
     copy_view(images.color, shown, static_cast<Rgb*>(frame.data));
   } else if (scheduled.registration_ignored ||
              device_.registration != ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR) {
-    copy_view(unregistered(images.depth_mm, device_.sensor.dataset().intrinsics().fx_px), shown,
+    copy_view(unregistered(images.depth_mm, device_.sensor.dataset().intrinsics()), shown,
               static_cast<std::uint16_t*>(frame.data));
   } else {
     copy_view(images.depth_mm, shown, static_cast<std::uint16_t*>(frame.data));
@@ -136,7 +136,7 @@ int VirtualStream::getRequiredFrameSize() {
 }
 
 ImageView VirtualStream::view() const {
-  std::scoped_lock const lock(mutex_);
+  std::scoped_lock const lock(device_.mutex);
   ImageView view{mirrored_ != FALSE, 0, 0, mode().resolutionX, mode().resolutionY};
   if (cropping_.enabled != FALSE) {
     view.left_px = cropping_.originX;
@@ -148,7 +148,10 @@ ImageView VirtualStream::view() const {
 }
 
 float VirtualStream::field_of_view_rad(int id) const {
-  CameraIntrinsics const& k = device_.sensor.dataset().intrinsics();
+  CameraIntrinsics const& color = device_.sensor.dataset().intrinsics();
+  bool const infrared = kind_ == SensorStream::kDepth &&
+                        device_.registration != ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR;
+  CameraIntrinsics const k = infrared ? infrared_of(color) : color;
   bool const horizontal = id == ONI_STREAM_PROPERTY_HORIZONTAL_FOV;
   double const half = 0.5 * (horizontal ? mode().resolutionX : mode().resolutionY);
   return static_cast<float>(2.0 * std::atan(half / (horizontal ? k.fx_px : k.fy_px)));
@@ -160,13 +163,13 @@ int* VirtualStream::setting(int id) {
   }
   switch (id) {
     case ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE:
-      return &settings_.auto_white_balance;
+      return &device_.camera.auto_white_balance;
     case ONI_STREAM_PROPERTY_AUTO_EXPOSURE:
-      return &settings_.auto_exposure;
+      return &device_.camera.auto_exposure;
     case ONI_STREAM_PROPERTY_EXPOSURE:
-      return &settings_.exposure;
+      return &device_.camera.exposure;
     case ONI_STREAM_PROPERTY_GAIN:
-      return &settings_.gain;
+      return &device_.camera.gain;
     default:
       return nullptr;
   }
@@ -208,7 +211,7 @@ OniStatus VirtualStream::getProperty(int id, void* data, int* size) {
     default:
       break;
   }
-  std::scoped_lock const lock(mutex_);
+  std::scoped_lock const lock(device_.mutex);
   if (id == ONI_STREAM_PROPERTY_CROPPING) {
     return answer(cropping_, data, size);
   }
@@ -223,7 +226,7 @@ OniStatus VirtualStream::set_cropping(OniCropping const& cropping) {
   if (cropping.enabled != FALSE && !fits) {
     return ONI_STATUS_BAD_PARAMETER;
   }
-  std::scoped_lock const lock(mutex_);
+  std::scoped_lock const lock(device_.mutex);
   cropping_ = cropping;
   return ONI_STATUS_OK;
 }
@@ -241,7 +244,7 @@ OniStatus VirtualStream::setProperty(int id, void const* data, int size) {
     auto const asked = asked_for<OniCropping>(data, size);
     return asked ? set_cropping(*asked) : ONI_STATUS_BAD_PARAMETER;
   }
-  std::scoped_lock const lock(mutex_);
+  std::scoped_lock const lock(device_.mutex);
   int* const kept = id == ONI_STREAM_PROPERTY_MIRRORING ? &mirrored_ : setting(id);
   if (kept == nullptr) {
     return ONI_STATUS_NOT_SUPPORTED;

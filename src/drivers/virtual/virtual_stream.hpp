@@ -12,24 +12,29 @@
 
 namespace credo {
 
-/// What a device's streams must know of it.
-struct OpenedSensor {
-  VirtualSensor& sensor;
-  /// Once it has been unplugged more often than that, the device is dead.
-  int times_unplugged = 0;
-  std::atomic<OniImageRegistrationMode> registration = ONI_IMAGE_REGISTRATION_OFF;
-  // For the report.
-  std::atomic<std::int64_t> depth_handed_out = 0;
-  std::atomic<std::int64_t> color_handed_out = 0;
-  std::atomic<std::int64_t> too_late = 0;
-};
-
 /// What is set of a colour camera; nothing that shows in its images.
 struct CameraSettings {
   OniBool auto_white_balance = TRUE;
   OniBool auto_exposure = TRUE;
   int exposure = 100;
   int gain = 100;
+};
+
+/// What a device's streams must know of it.
+struct OpenedSensor {
+  VirtualSensor& sensor;
+  /// Once it has been unplugged more often than that, the device is dead.
+  int times_unplugged = 0;
+  std::atomic<OniImageRegistrationMode> registration = ONI_IMAGE_REGISTRATION_OFF;
+
+  /// Of what is set from outside while streams run: here and in them.
+  std::mutex mutex{};
+  CameraSettings camera{};
+
+  // For the report.
+  std::atomic<std::int64_t> depth_handed_out = 0;
+  std::atomic<std::int64_t> color_handed_out = 0;
+  std::atomic<std::int64_t> too_late = 0;
 };
 
 /// One stream of an open device: hands out at each tick, from a thread of its own, what the
@@ -67,10 +72,9 @@ private:
   OpenedSensor& device_;
   SensorStream kind_;
 
-  mutable std::mutex mutex_;
+  // Behind the device's mutex.
   OniCropping cropping_{};
   OniBool mirrored_ = FALSE;
-  CameraSettings settings_;
 
   std::jthread thread_;
 };

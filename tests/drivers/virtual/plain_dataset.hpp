@@ -8,7 +8,10 @@
 
 #include "core/frame.hpp"
 #include "core/grid.hpp"
+#include "core/se3.hpp"
+#include "geometry/depth_registration.hpp"
 #include "io/image.hpp"
+#include "support/literal_registration.hpp"
 #include "support/temp_folder.hpp"
 
 namespace credo::test {
@@ -54,21 +57,23 @@ inline void write_dataset(std::filesystem::path const& folder, std::size_t image
   write_text(folder / "camera-intrinsics.txt", "60 0 31.5 0 60 23.5 0 0 1");
 }
 
-/// The obvious way: for each pixel of the infrared camera, the nearest of what lands there. The
-/// camera stands 25 mm to the left, so all is seen farther to the right.
+/// The obvious way: for each pixel of the infrared camera, 25 mm to the left and with a lens
+/// 575.8/525 as long, the nearest of all that lands there.
 inline Grid<std::uint16_t> literally_unregistered(Grid<std::uint16_t> const& depth) {
+  CameraIntrinsics const color{kFocal_px, kFocal_px, 31.5, 23.5};
+  double const infrared_px = kFocal_px * 575.8 / 525.0;
+  DepthCalibration const calibration{
+      color,
+      {infrared_px, infrared_px, 31.5, 23.5},
+      Se3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.025, 0.0, 0.0))};
+  Grid<float> depth_m(depth.width(), depth.height());
+  for (std::size_t p = 0; p < depth.size(); ++p) {
+    depth_m[p] = static_cast<float>(depth[p]) / 1000.0F;
+  }
+  depth_m = literal_registration(depth_m, calibration, depth.width(), depth.height());
   Grid<std::uint16_t> seen(depth.width(), depth.height());
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = 0; u < depth.width(); ++u) {
-      int nearest = 0;
-      for (int from = 0; from < depth.width(); ++from) {
-        int const z = depth[{from, v}];
-        double const x_mm = z * from / kFocal_px + 25.0;
-        bool const here = z > 0 && static_cast<int>(std::lround(x_mm * kFocal_px / z)) == u;
-        nearest = here && (nearest == 0 || z < nearest) ? z : nearest;
-      }
-      seen[{u, v}] = static_cast<std::uint16_t>(nearest);
-    }
+  for (std::size_t p = 0; p < depth.size(); ++p) {
+    seen[p] = static_cast<std::uint16_t>(std::lround(1000.0F * depth_m[p]));
   }
   return seen;
 }

@@ -84,17 +84,26 @@ TEST(SensorDataset, SaysWhatItCannotPlay) {
 
 TEST(Unregistered, EqualsTheObviousWay) {
   for (std::size_t image = 0; image < 3; ++image) {
-    EXPECT_EQ(unregistered(depth_of(image), kFocal_px), literally_unregistered(depth_of(image)));
+    EXPECT_EQ(unregistered(depth_of(image), {kFocal_px, kFocal_px, 31.5, 23.5}),
+              literally_unregistered(depth_of(image)));
   }
-  // 60 px * 25 mm / 500 mm = 3 px; what is nearer hides what is farther.
-  Grid<std::uint16_t> depth(8, 1, std::uint16_t{0});
-  depth[1] = 500;
-  EXPECT_EQ(unregistered(depth, kFocal_px), Grid<std::uint16_t>(8, 1, {0, 0, 0, 0, 500, 0, 0, 0}));
-  depth[3] = 1500;
-  EXPECT_EQ(unregistered(depth, kFocal_px), Grid<std::uint16_t>(8, 1, {0, 0, 0, 0, 500, 0, 0, 0}));
-  depth[7] = 1500;
-  EXPECT_EQ(unregistered(depth, kFocal_px), Grid<std::uint16_t>(8, 1, {0, 0, 0, 0, 500, 0, 0, 0}));
-  EXPECT_TRUE(unregistered({}, kFocal_px).empty());
+}
+
+// 575.8 px * 25 mm / 7198 mm = 2 px to the right; what is nearer hides what is farther.
+TEST(Unregistered, IsWhatAKinectsInfraredCameraSees) {
+  CameraIntrinsics const color{525, 525, 4, 0};
+  EXPECT_NEAR(infrared_of(color).fx_px, 575.8, 1e-9);
+  EXPECT_NEAR(infrared_of(color).fy_px, 575.8, 1e-9);
+  EXPECT_EQ(infrared_of(color).cx_px, 4);
+  Grid<std::uint16_t> depth_mm(9, 1, std::uint16_t{0});
+  depth_mm[4] = 7198;
+  EXPECT_EQ(unregistered(depth_mm, color),
+            Grid<std::uint16_t>(9, 1, {0, 0, 0, 0, 0, 0, 7198, 0, 0}));
+  // Two pixels left of the middle are 2.2 in the longer lens; 4 px to the right of that is 5.8.
+  depth_mm[2] = 3599;
+  EXPECT_EQ(unregistered(depth_mm, color),
+            Grid<std::uint16_t>(9, 1, {0, 0, 0, 0, 0, 0, 3599, 0, 0}));
+  EXPECT_TRUE(unregistered({}, color).empty());
 }
 
 }  // namespace

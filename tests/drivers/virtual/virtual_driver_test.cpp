@@ -50,7 +50,6 @@ TEST_F(VirtualDriver, AnswersWhatClientsAsk) {
   other.setFps(60);
   EXPECT_NE(client.depth().setVideoMode(other), openni::STATUS_OK);
   EXPECT_EQ(client.color().getVideoMode().getPixelFormat(), openni::PIXEL_FORMAT_RGB888);
-  EXPECT_NEAR(client.depth().getHorizontalFieldOfView(), 2 * std::atan(32.0 / kFocal_px), 1e-6);
   EXPECT_NEAR(client.color().getVerticalFieldOfView(), 2 * std::atan(24.0 / kFocal_px), 1e-6);
   EXPECT_EQ(client.depth().getMinPixelValue(), 0);
   EXPECT_EQ(client.depth().getMaxPixelValue(), 10'000);
@@ -78,6 +77,17 @@ TEST_F(VirtualDriver, UnregisteredDepthIsWhatTheInfraredCameraSees) {
                                          : pixels_of(image));
   }
   EXPECT_GT(count(all, true, 0, 11), 0);
+}
+
+TEST_F(VirtualDriver, TheFieldOfViewIsThatOfTheCameraWhoseImageItIs) {
+  start_with_fault("");
+  Client client("a");
+  double const color_rad = 2.0 * std::atan(0.5 * kWidth / kFocal_px);
+  double const infrared_rad = 2.0 * std::atan(0.5 * kWidth / (kFocal_px * 575.8 / 525.0));
+  EXPECT_NEAR(client.depth().getHorizontalFieldOfView(), infrared_rad, 1e-6);
+  EXPECT_NEAR(client.color().getHorizontalFieldOfView(), color_rad, 1e-6);
+  client.register_depth();
+  EXPECT_NEAR(client.depth().getHorizontalFieldOfView(), color_rad, 1e-6);
 }
 
 TEST_F(VirtualDriver, MirrorsAndCutsWhereAsked) {

@@ -12,9 +12,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/virtual/virtual_client.hpp"
-#include "io/dataset.hpp"
-#include "openni/openni_source.hpp"
+#include "drivers/virtual/virtual_source.hpp"
 #include "openni/sensor_list.hpp"
 
 namespace credo::test {
@@ -26,75 +24,6 @@ using ::testing::Ge;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Le;
-
-/// What a source gave.
-struct Seen {
-  std::vector<FramePtr> frames;
-  /// Frames that were lost, by reason.
-  std::map<std::string, int> lost;
-
-  [[nodiscard]] int lost_by(std::string const& reason) const {
-    auto const found = lost.find(reason);
-    return found == lost.end() ? 0 : found->second;
-  }
-  [[nodiscard]] int colored() const {
-    return static_cast<int>(
-        std::ranges::count_if(frames, [](FramePtr const& f) { return !f->color.empty(); }));
-  }
-};
-
-/// The sensor's tick that a frame is of, as long as its clock runs true.
-std::int64_t tick_of(Frame const& frame) {
-  return std::lround(static_cast<double>(frame.stamp_ns - 1'000'000'000) * 30e-9);
-}
-
-class VirtualSource : public ::testing::Test {
-protected:
-  /// Without faults where none are given.
-  void open(std::string const& fault, SensorConfig const& config = {}) {
-    write_dataset(folder_ / "a", 12);
-    write_text(folder_ / "s.json",
-               R"({"sensors": [{"name": "a", "dataset": "a", "faults": [)" + fault + "]}]}");
-    ::setenv("CREDO_VIRTUAL_SENSOR", (folder_ / "s.json").c_str(), 1);
-    opened_ = open_openni("virtual://a", {}, {}, config,
-                          [&](std::string const& note) { notes_.push_back(note); }, {});
-  }
-
-  /// Reads until a frame of that time of the sensor [s] has come.
-  Seen read_until(double time_s) {
-    Seen seen;
-    std::int64_t const end_ns = 1'000'000'000 + static_cast<std::int64_t>(1e9 * time_s);
-    while (seen.frames.empty() || seen.frames.back()->stamp_ns < end_ns) {
-      SourceResult result = opened_.source->next();
-      if (auto const* failure = std::get_if<FrameFailure>(&result)) {
-        EXPECT_EQ(number(failure->index), next_index_++);
-        EXPECT_THAT(failure->message, HasSubstr("openni:virtual://a: "));
-        ++seen.lost[failure->reason];
-        continue;
-      }
-      FramePtr frame = std::get<FramePtr>(std::move(result));
-      EXPECT_EQ(number(frame->index), next_index_++);
-      if (!seen.frames.empty()) {
-        EXPECT_GT(frame->stamp_ns, seen.frames.back()->stamp_ns);
-      }
-      seen.frames.push_back(std::move(frame));
-    }
-    return seen;
-  }
-
-  /// Every tick is a frame, or counted as one that did not come or was broken.
-  static void expect_all_counted(Seen const& seen) {
-    std::int64_t const ticks = tick_of(*seen.frames.back()) - tick_of(*seen.frames.front()) + 1;
-    EXPECT_EQ(static_cast<std::int64_t>(seen.frames.size()) + seen.lost_by("missed") +
-                  seen.lost_by("broken_image"),
-              ticks);
-  }
-
-  TempFolder folder_;
-  OpenedSource opened_;
-  std::vector<std::string> notes_;
-  std::int64_t next_index_ = 0;
-};
 
 TEST_F(VirtualSource, SeesWhatTheDatasetHolds) {
   open("");
@@ -231,36 +160,6 @@ TEST_F(VirtualSource, AFirstImageThatIsLateIsNoFault) {
 TEST_F(VirtualSource, ColourOfAnotherMomentIsPairedAsFarAsItIsNear) {
   open(R"({"fault": "color_shift", "by_ms": 12})");
   EXPECT_GT(read_until(1).colored(), 0);
-}
-
-/// The share of pixels whose depth is the registered image's, to the mm.
-double share_registered(Frame const& frame, std::size_t images) {
-  std::size_t most = 0;
-  for (std::size_t image = 0; image < images; ++image) {
-    Grid<std::uint16_t> const expected = depth_of(image);
-    std::size_t same = 0;
-    for (std::size_t p = 0; p < expected.size(); ++p) {
-      same += std::abs(1000 * frame.cloud_camera.z[p] - expected[p]) <= 0.5 ? 1U : 0U;
-    }
-    most = std::max(most, same);
-  }
-  return static_cast<double>(most) / static_cast<double>(frame.cloud_camera.size());
-}
-
-TEST_F(VirtualSource, WhatTheSensorCannotRegisterIsRegisteredHere) {
-  std::map<RegistrationMode, double> share;
-  for (RegistrationMode const mode : {RegistrationMode::kAuto, RegistrationMode::kOff}) {
-    opened_ = {};
-    next_index_ = 0;
-    SensorConfig config;
-    config.registration = mode;
-    open(R"({"fault": "registration_missing"})", config);
-    Seen const seen = read_until(0.3);
-    EXPECT_EQ(seen.frames.back()->color_registered, mode == RegistrationMode::kAuto);
-    share[mode] = share_registered(*seen.frames.back(), 12);
-  }
-  EXPECT_GT(share[RegistrationMode::kAuto], 0.6);
-  EXPECT_LT(share[RegistrationMode::kOff], 0.4);
 }
 
 TEST_F(VirtualSource, IsListed) {
