@@ -9,8 +9,8 @@
 
 namespace credo {
 
-/// Every so many-th of the pixels, all of them valid, that no more than `most` are taken, as points
-/// to search for planes; a point's source is its pixel.
+/// Of the pixels, all of them valid, every so many-th in every so many-th row, that no more than
+/// `most` are taken, as points to search for planes; a point's source is its pixel.
 [[nodiscard]] PlaneSearchPoints sample_of(CountedPixels const& pixels, std::size_t most,
                                           OrganizedCloud const& cloud, NormalMap const& normals,
                                           PlaneTolerance const& tolerance);
