@@ -75,7 +75,7 @@ void check_still(FramePtr const& first, FramePtr const& frame) {
   double const turn_deg = so3_log(motion.rotation()).norm() * 180.0 / std::numbers::pi;
   if (motion.translation().norm() > kMost_m || turn_deg > kMost_deg) {
     throw InputError(fmt::format(
-        "the camera moves: its poses say {:.0f} mm and {:.1f} degrees between frames {} and {}; "
+        "the camera moves: its poses say {:.0f} mm and {:.2f} degrees between frames {} and {}; "
         "take "
         "fewer frames, or, if the poses are wrong, --set pose.source=fixed",
         1000.0 * motion.translation().norm(), turn_deg, number(first->index),

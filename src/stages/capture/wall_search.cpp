@@ -62,7 +62,7 @@ Shown shown_by(Plane const& wall, Eigen::Vector3d const& up, PlaneSearchPoints c
   }
   return cells.empty() ? Shown{}
                        : Shown{static_cast<double>(cells.size()) * kCell_m * kCell_m,
-                               static_cast<double>(right - left + 1) * kCell_m};
+                               static_cast<double>(right - left) * kCell_m};
 }
 
 double share_behind(Plane const& wall, PlaneSearchPoints const& points, std::size_t own) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "stages/capture/coarse_cloud.hpp"
 #include "support/world_scene.hpp"
 
 namespace credo {
@@ -48,12 +49,12 @@ TEST(FindWall, StandsUpright) {
 
 TEST(FindWall, HasNextToNothingBehindIt) {
   WorldScene room = WorldScene().with_floor().with_wall(3.0);
-  // In the picture larger than all that it leaves of the wall; but the wall is seen beside it.
-  room.with_box({-0.9, 1.6, 0.0}, {0.6, 1.9, 1.5});
+  // It shows more than it leaves of the wall; but the wall is seen beside it.
+  room.with_box({-0.9, 2.6, 0.0}, {0.9, 2.9, 1.8});
   EXPECT_NEAR(wall_of(room).value().offset_m, -3.0, 1e-3);
   // Without anything behind it nobody can tell.
   room.planes.pop_back();
-  EXPECT_NEAR(wall_of(room).value().offset_m, -1.6, 1e-3);
+  EXPECT_NEAR(wall_of(room).value().offset_m, -2.6, 1e-3);
 }
 
 TEST(FindWall, IsNeitherSmallNorNarrow) {
@@ -64,7 +65,7 @@ TEST(FindWall, IsNeitherSmallNorNarrow) {
 }
 
 TEST(FindWall, OfNothingIsNone) {
-  EXPECT_FALSE(find_wall({}, {}));
+  EXPECT_FALSE(find_wall(std::vector<PlaneSearchPoints>(), Plane()));
 }
 
 }  // namespace
