@@ -210,7 +210,7 @@ void play(RunCommand const& command, Inputs inputs, BeliefPublisher* publisher,
   Outlines const outlines = outlines_of(inputs.known->models);
   Progress progress(frames_to_come);
   std::optional<LevelWatch> watch;
-  if (level.floor_found && config.pose.level == LevelMode::kAuto && is_live(command.source)) {
+  if (level.floor_found && config.pose.level != LevelMode::kOff && is_live(command.source)) {
     watch.emplace(level);
   }
   RunReport const report =

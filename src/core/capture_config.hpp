@@ -58,18 +58,30 @@ enum class PoseSource : std::uint8_t {
   kFixed,
 };
 
-enum class LevelMode : std::uint8_t { kOff, kAuto };
+enum class LevelMode : std::uint8_t {
+  /// The source is level.
+  kOff,
+  /// By the floor in the first frames.
+  kAuto,
+  /// The first camera stands as PoseConfig says, on a floor at z = 0: a calibration.
+  kGiven,
+};
 
 /// Poses, and how the world is found from them (world = source turned level, floor at z = 0).
 struct PoseConfig {
   PoseSource source = PoseSource::kRecorded;
   std::string file;
   LevelMode level = LevelMode::kAuto;
-  /// The camera where no floor is in view: downward pitch, roll to the right, height above the
-  /// floor.
+  /// The camera where no floor is in view, or of LevelMode::kGiven: downward pitch, roll to the
+  /// right, height above the floor.
   double camera_pitch_rad = 0.0;
   double camera_roll_rad = 0.0;
   double camera_height_m = 1.0;
+  /// Of LevelMode::kGiven: turned so far about the world's z, counterclockwise from above, beyond
+  /// what LevelMode::kAuto would make of it (where the view goes along +y), and where it stands.
+  double camera_yaw_rad = 0.0;
+  double camera_x_m = 0.0;
+  double camera_y_m = 0.0;
   /// Frames to read ahead, at most, in search of the floor.
   int level_frames = 30;
 };

@@ -55,7 +55,7 @@ SourceResult ReadAhead::read() {
 WorldLevel find_level_ahead(ReadAhead& source, PoseConfig const& config) {
   FramePtr first;
   // Each frame by itself: those before it are known to show no floor, and need not be kept for it.
-  for (int i = 0; config.level == LevelMode::kAuto && i < config.level_frames; ++i) {
+  for (int i = 0; config.level != LevelMode::kOff && i < config.level_frames; ++i) {
     SourceResult const& result = source.peek();
     if (std::holds_alternative<EndOfSource>(result)) {
       break;

@@ -34,8 +34,8 @@ private:
 };
 
 /// Finds the level by the first frame that shows the floor, among the first `pose.level_frames`;
-/// reads no further than that one. Bad frames are passed over; a source that has fallen silent
-/// ends the search.
+/// reads no further than that one, or than the first good one where the level is given. Bad frames
+/// are passed over; a source that has fallen silent ends the search.
 WorldLevel find_level_ahead(ReadAhead& source, PoseConfig const& config);
 
 }  // namespace credo

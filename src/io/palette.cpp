@@ -41,6 +41,14 @@ Rgb mixed(Rgb a, Rgb b, double share_of_b) {
   return result;
 }
 
+Rgb depth_grey(float depth_m) {
+  if (std::isnan(depth_m)) {
+    return kBlack;
+  }
+  auto const level = static_cast<std::uint8_t>(std::clamp(255.0F - 42.0F * depth_m, 40.0F, 255.0F));
+  return {level, level, level};
+}
+
 Rgb label_color(LabelCode label) {
   if (label == kNoDepth) {
     return kBlack;

@@ -18,6 +18,9 @@ inline constexpr Rgb kPink = {255, 130, 190};
 /// Between two colours, by the share of the second.
 Rgb mixed(Rgb a, Rgb b, double share_of_b);
 
+/// Depth as grey, the nearer the brighter; black for none.
+Rgb depth_grey(float depth_m);
+
 /// The colour of a label that the belief tells nothing about; black for no depth, cyan for
 /// unassigned.
 Rgb label_color(LabelCode label);

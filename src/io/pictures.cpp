@@ -13,14 +13,6 @@ namespace {
 constexpr Rgb kBlack = {0, 0, 0};
 constexpr Rgb kRefused = {255, 140, 0};
 
-Rgb depth_grey(float z) {
-  if (std::isnan(z)) {
-    return kBlack;
-  }
-  auto const level = static_cast<std::uint8_t>(std::clamp(255.0F - 42.0F * z, 40.0F, 255.0F));
-  return {level, level, level};
-}
-
 void draw_color(Frame const& frame, Panel const& panel, Canvas& canvas) {
   OrganizedCloud const& cloud = frame.cloud_camera;
   for (int y = 0; y < panel.height; ++y) {

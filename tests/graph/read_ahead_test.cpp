@@ -164,6 +164,29 @@ TEST(FindLevelAhead, ReadsNothingWhereTheSourceIsLevel) {
   EXPECT_EQ(inner.given(), 0);
 }
 
+TEST(FindLevelAhead, PutsTheFirstGoodFrameWhereTheCameraIsGiven) {
+  auto fake = std::make_unique<test::FakeSource>(6, [](std::int64_t index) -> SourceResult {
+    if (index < 2) {
+      return FrameFailure{FrameIndex{index}, "noise", "unreadable"};
+    }
+    auto frame = std::make_shared<Frame>(*test::tiny_frame(index));
+    frame->T_source_camera = Se3(Eigen::Quaterniond::Identity(), {0, 0, 0.1 * double(index)});
+    return FramePtr(std::move(frame));
+  });
+  test::FakeSource const& inner = *fake;
+  ReadAhead source(std::move(fake));
+  PoseConfig config;
+  config.level = LevelMode::kGiven;
+  config.camera_x_m = 3.0;
+  WorldLevel const level = find_level_ahead(source, config);
+  EXPECT_TRUE(level.floor_found);
+  EXPECT_TRUE(level.given);
+  EXPECT_LT((level.T_world_source * Eigen::Vector3d(0, 0, 0.2) - Eigen::Vector3d(3, 0, 1)).norm(),
+            1e-12);
+  EXPECT_EQ(inner.given(), 3) << "reads no further";
+  EXPECT_EQ(rest_of(source), test::first(6));
+}
+
 TEST(FindLevelAhead, AnEmptySourceIsNoError) {
   ReadAhead source(std::make_unique<test::FakeSource>(0));
   EXPECT_FALSE(find_level_ahead(source, PoseConfig{}).floor_found);

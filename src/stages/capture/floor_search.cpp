@@ -5,58 +5,14 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/plane_search.hpp"
-
 namespace credo {
 namespace {
 
-constexpr int kStride = 4;             // every 4th pixel either way is enough for a floor
 constexpr int kMaxPlanes = 12;         // largest first; a floor is not among the crumbs
 constexpr double kMinShare = 0.02;     // of the valid points
 constexpr double kMaxTiltRad = 1.134;  // 65 degrees: how far a camera may be pitched and rolled
 constexpr double kMinHeightM = 0.2;    // a camera does not lie on the floor
 constexpr double kMaxShareBeneath = 0.02;
-
-float noise_tolerance_m(float depth_m) {
-  return 0.012F + 0.006F * depth_m * depth_m;
-}
-
-/// Every kStride-th pixel with a normal from the cross product of central differences.
-struct CoarseCloud {
-  Grid<Eigen::Vector3f> points;
-  PlaneSearchPoints search;
-};
-
-Eigen::Vector3f coarse_normal(OrganizedCloud const& cloud, Pixel p) {
-  constexpr int kReach = 6;
-  if (p.u < kReach || p.v < kReach || p.u + kReach >= cloud.width() ||
-      p.v + kReach >= cloud.height()) {
-    return Eigen::Vector3f::Constant(kNaN);
-  }
-  Eigen::Vector3f const du =
-      cloud.at(Pixel{p.u + kReach, p.v}) - cloud.at(Pixel{p.u - kReach, p.v});
-  Eigen::Vector3f const dv =
-      cloud.at(Pixel{p.u, p.v + kReach}) - cloud.at(Pixel{p.u, p.v - kReach});
-  return dv.cross(du).normalized();
-}
-
-CoarseCloud coarse_cloud(OrganizedCloud const& cloud) {
-  CoarseCloud coarse;
-  coarse.points = Grid<Eigen::Vector3f>((cloud.width() + kStride - 1) / kStride,
-                                        (cloud.height() + kStride - 1) / kStride,
-                                        Eigen::Vector3f::Constant(kNaN));
-  for (std::size_t i = 0; i < coarse.points.size(); ++i) {
-    Pixel const cell = coarse.points.pixel(i);
-    Pixel const p{cell.u * kStride, cell.v * kStride};
-    std::size_t const at = cloud.x.index(p);
-    if (cloud.valid(at)) {
-      coarse.points[i] = cloud.at(at);
-      coarse.search.add(cloud.at(at), coarse_normal(cloud, p), noise_tolerance_m(cloud.z[at]),
-                        static_cast<std::uint32_t>(i));
-    }
-  }
-  return coarse;
-}
 
 /// Share of all points clear of the plane on its lower side, relative to the plane's own.
 double share_beneath(Plane const& plane, PlaneSearchPoints const& all, std::size_t own) {
@@ -141,7 +97,10 @@ bool could_be_floor(Plane const& plane) {
 }  // namespace
 
 std::optional<Plane> find_floor(OrganizedCloud const& cloud) {
-  CoarseCloud const coarse = coarse_cloud(cloud);
+  return find_floor(coarse_cloud(cloud));
+}
+
+std::optional<Plane> find_floor(CoarseCloud const& coarse) {
   PlaneSearchPoints remaining = coarse.search;
   PlaneSearchLimits limits{PlaneSampling::kPointAndNormal, 0.35, 0.9999, 400, 2048, 1};
   auto const least =

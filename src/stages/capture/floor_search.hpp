@@ -4,6 +4,7 @@
 
 #include "core/cloud.hpp"
 #include "core/plane.hpp"
+#include "stages/capture/coarse_cloud.hpp"
 
 namespace credo {
 
@@ -16,5 +17,6 @@ namespace credo {
 /// Camera frame, normal up, refined to the sensor's noise. None where no plane qualifies, which is
 /// the usual answer to a table top that fills the view.
 std::optional<Plane> find_floor(OrganizedCloud const& cloud);
+std::optional<Plane> find_floor(CoarseCloud const& coarse);
 
 }  // namespace credo

@@ -36,12 +36,9 @@ WorldLevel level_by_floor(Plane const& floor_source, FrameIndex frame, double he
 }
 
 WorldLevel level_by_config(Frame const& first, PoseConfig const& config) {
-  // In the camera frame y points down; pitching down by a turns up from -y towards -z, rolling to
-  // the right turns it towards -x.
   double const pitch = config.camera_pitch_rad;
   double const roll = config.camera_roll_rad;
-  Eigen::Vector3d const up_camera(-std::sin(roll) * std::cos(pitch),
-                                  -std::cos(roll) * std::cos(pitch), -std::sin(pitch));
+  Eigen::Vector3d const up_camera = up_of_camera(pitch, roll);
   Eigen::Quaterniond const turn = rotation_to_z(first.T_source_camera.rotation() * up_camera);
   double const camera_z = (turn * first.T_source_camera.translation()).z();
   WorldLevel level;
@@ -53,11 +50,40 @@ WorldLevel level_by_config(Frame const& first, PoseConfig const& config) {
   return level;
 }
 
+WorldLevel level_as_given(Frame const& first, PoseConfig const& config) {
+  WorldLevel level;
+  level.T_world_source = given_camera(config) * first.T_source_camera.inverse();
+  level.floor_found = true;
+  level.given = true;
+  level.note = "the camera stands as given: " + two_decimals(config.camera_height_m) +
+               " m up, pitch " + two_decimals(config.camera_pitch_rad) + " rad, roll " +
+               two_decimals(config.camera_roll_rad) + " rad, yaw " +
+               two_decimals(config.camera_yaw_rad) + " rad (pose.camera_*)";
+  return level;
+}
+
 }  // namespace
+
+Eigen::Vector3d up_of_camera(double pitch_rad, double roll_rad) {
+  // In the camera frame y points down; pitching down by a turns up from -y towards -z, rolling to
+  // the right turns it towards -x.
+  return {-std::sin(roll_rad) * std::cos(pitch_rad), -std::cos(roll_rad) * std::cos(pitch_rad),
+          -std::sin(pitch_rad)};
+}
+
+Se3 given_camera(PoseConfig const& config) {
+  Eigen::Vector3d const up = up_of_camera(config.camera_pitch_rad, config.camera_roll_rad);
+  Eigen::AngleAxisd const yaw(config.camera_yaw_rad, Eigen::Vector3d::UnitZ());
+  return {Eigen::Quaterniond(yaw) * rotation_to_z(up),
+          {config.camera_x_m, config.camera_y_m, config.camera_height_m}};
+}
 
 WorldLevel find_level(std::span<FramePtr const> frames, PoseConfig const& config) {
   if (config.level == LevelMode::kOff) {
     return {Se3{}, true, "source taken as level (pose.level: off)"};
+  }
+  if (config.level == LevelMode::kGiven) {
+    return level_as_given(frames.empty() ? Frame{} : *frames.front(), config);
   }
   for (FramePtr const& frame : frames) {
     if (std::optional<Plane> const floor = find_floor(frame->cloud_camera)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <string>
 
@@ -16,10 +17,20 @@ struct WorldLevel {
   bool floor_found = false;
   /// One line for the log: what the level rests on.
   std::string note;
+  /// Told by the config (LevelMode::kGiven), not found in this run.
+  bool given = false;
 };
 
+/// Which way is up for a camera pitched down and then rolled to the right; unit, camera frame.
+Eigen::Vector3d up_of_camera(double pitch_rad, double roll_rad);
+
+/// The camera that a level camera_* of the config tell: the least rotation that takes its up to +z,
+/// as where the floor is found, then camera_yaw_rad about z.
+Se3 given_camera(PoseConfig const& config);
+
 /// Finds the level from the first frames of a run (method: the large near-horizontal plane with
-/// nothing beneath it). LevelMode::kOff gives the identity with floor_found = true.
+/// nothing beneath it). LevelMode::kOff gives the identity with floor_found = true;
+/// LevelMode::kGiven puts the first of them where the config says, also with floor_found = true.
 WorldLevel find_level(std::span<FramePtr const> frames, PoseConfig const& config);
 
 }  // namespace credo

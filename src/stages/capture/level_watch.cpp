@@ -25,13 +25,15 @@ struct FloorNow {
   double rise_m = 0.0;
 };
 
-std::string told(FloorNow const& floor) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(),  // NOLINT(*-vararg)
-                "the camera has moved: the floor is %.1f degrees off level and %.0f mm %s than at "
-                "the start; put it back, or start anew",
-                floor.tilt_rad * 180.0 / std::numbers::pi, std::abs(floor.rise_m) * 1000.0,
-                floor.rise_m < 0.0 ? "lower" : "higher");
+std::string told(FloorNow const& floor, bool given) {
+  std::array<char, 240> text{};
+  std::snprintf(
+      text.data(), text.size(),  // NOLINT(*-vararg)
+      "the camera has moved: the floor is %.1f degrees off level and %.0f mm %s than at %s",
+      floor.tilt_rad * 180.0 / std::numbers::pi, std::abs(floor.rise_m) * 1000.0,
+      floor.rise_m < 0.0 ? "lower" : "higher",
+      given ? "the calibration; put it back, or calibrate anew"
+            : "the start; put it back, or start anew");
   return text.data();
 }
 
@@ -62,7 +64,11 @@ std::optional<std::string> LevelWatch::look(Frame const& frame) {
   }
   moved_ = moved;
   against_ = 0;
-  return moved ? told(now) : "the camera stands as it did at the start again";
+  if (moved) {
+    return told(now, given_);
+  }
+  return given_ ? "the camera stands as it did at the calibration again"
+                : "the camera stands as it did at the start again";
 }
 
 }  // namespace credo

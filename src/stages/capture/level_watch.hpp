@@ -19,7 +19,8 @@ namespace credo {
 /// nothing; neither does a frame without a floor.
 class LevelWatch {
 public:
-  explicit LevelWatch(WorldLevel const& level) : T_world_source_(level.T_world_source) {}
+  explicit LevelWatch(WorldLevel const& level)
+      : T_world_source_(level.T_world_source), given_(level.given) {}
 
   /// Frames in their order. A line for people when the camera is found to have moved, and one when
   /// it stands as it did at first; none otherwise.
@@ -27,6 +28,7 @@ public:
 
 private:
   Se3 T_world_source_;
+  bool given_;
   std::optional<std::int64_t> looked_at_ns_;
   /// Looks in a row that say the contrary of what was told last.
   int against_ = 0;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "support/world_scene.hpp"
@@ -95,6 +96,40 @@ TEST(Level, OffTakesTheSourceAsItIs) {
   WorldLevel const level = find_level({&frame, 1}, config);
   EXPECT_TRUE(level.floor_found);
   EXPECT_EQ(level.T_world_source.matrix(), Eigen::Matrix4d::Identity());
+}
+
+TEST(Level, IsTakenAsGivenWhateverIsInView) {
+  // A floor half a metre lower and level is in view.
+  Se3 const T_world_camera = camera_looking_along_y(1.8, 0.5);
+  Se3 const T_source_camera = camera_looking_along_y(0.3, -0.2);
+  FramePtr const frame =
+      frame_in_source(room(), T_world_camera, T_source_camera * T_world_camera.inverse());
+  PoseConfig config;
+  config.level = LevelMode::kGiven;
+  config.camera_pitch_rad = 0.4;
+  config.camera_height_m = 1.3;
+  config.camera_x_m = 2.0;
+  config.camera_y_m = -1.0;
+  WorldLevel const level = find_level({&frame, 1}, config);
+  EXPECT_TRUE(level.floor_found);
+  EXPECT_TRUE(level.given);
+  EXPECT_THAT(level.note, testing::HasSubstr("stands as given: 1.30 m up, pitch 0.40 rad"));
+  Se3 const expected =
+      Se3(Eigen::Quaterniond::Identity(), {2.0, -1.0, 0.0}) * camera_looking_along_y(1.3, 0.4);
+  Se3 const camera = level.T_world_source * T_source_camera;
+  EXPECT_LT((camera.matrix() - expected.matrix()).norm(), 1e-12);
+  EXPECT_FALSE(find_level({&frame, 1}, {}).given);
+}
+
+TEST(Level, GivenYawTurnsCounterclockwiseSeenFromAbove) {
+  PoseConfig config;
+  config.level = LevelMode::kGiven;
+  config.camera_yaw_rad = 0.5 * std::numbers::pi;
+  Se3 const camera = find_level({}, config).T_world_source;
+  // From +y to -x.
+  EXPECT_LT((camera.rotation() * Eigen::Vector3d::UnitZ() + Eigen::Vector3d::UnitX()).norm(),
+            1e-12);
+  EXPECT_LT((camera.translation() - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
 }
 
 TEST(Level, WithoutAnyFrameStandsUpright) {

@@ -41,8 +41,9 @@ protected:
     return told;
   }
 
-private:
   LevelWatch watch_{WorldLevel{Se3{}, true, ""}};
+
+private:
   std::int64_t now_ns_ = 0;
 };
 
@@ -57,6 +58,16 @@ TEST_F(LevelWatchTest, TellsOnceThatItWasTiltedAndOnceThatItIsBack) {
   EXPECT_THAT(watch(10, kPitch_rad + 0.06, kHeight_m),
               testing::ElementsAre(HasSubstr("moved: the floor is 3.4 degrees off level")));
   EXPECT_THAT(watch(10, kPitch_rad, kHeight_m), testing::ElementsAre(HasSubstr("again")));
+}
+
+TEST_F(LevelWatchTest, HoldsACalibratedCameraAgainstItsCalibration) {
+  watch_ = LevelWatch(WorldLevel{Se3{}, true, "", true});
+  EXPECT_THAT(watch(10, kPitch_rad, kHeight_m), testing::IsEmpty());
+  EXPECT_THAT(
+      watch(10, kPitch_rad + 0.06, kHeight_m),
+      testing::ElementsAre(HasSubstr("than at the calibration; put it back, or calibrate")));
+  EXPECT_THAT(watch(10, kPitch_rad, kHeight_m),
+              testing::ElementsAre(HasSubstr("as it did at the calibration again")));
 }
 
 TEST_F(LevelWatchTest, TellsThatItWasRaised) {
