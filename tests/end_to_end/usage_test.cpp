@@ -86,8 +86,10 @@ INSTANTIATE_TEST_SUITE_P(
     [](auto const& instance) { return instance.param.name; });
 
 TEST(CommandLine, HelpHasExamplesAndExitsWith0) {
-  for (std::vector<std::string> const& command :
-       {std::vector<std::string>{"--help"}, {"run", "--help"}, {"config", "--help"}}) {
+  for (std::vector<std::string> const& command : {std::vector<std::string>{"--help"},
+                                                  {"run", "--help"},
+                                                  {"record", "--help"},
+                                                  {"config", "--help"}}) {
     Ended const ended = test::credo(command);
     EXPECT_EQ(ended.code, 0);
     EXPECT_THAT(ended.out, HasSubstr("Examples:\n  credo "));
@@ -105,7 +107,7 @@ TEST(CommandLine, HelpNamesEveryOption) {
   std::string const all = test::credo({"--help"}).out;
   EXPECT_THAT(all, HasSubstr("Exit codes: 0 done (also when stopped by Ctrl-C), 2 bad usage, "
                              "config or input, 1 anything else."));
-  for (char const* command : {"\n  run ", "\n  config "}) {
+  for (char const* command : {"\n  run ", "\n  record ", "\n  config "}) {
     EXPECT_THAT(all, HasSubstr(command));
   }
   EXPECT_THAT(test::credo({"--version"}).out, StartsWith("credo 0."));
