@@ -43,9 +43,9 @@ public:
     std::scoped_lock const lock(mutex_);
     if (line_.is_due()) {
       line_.show(
-          fmt::format("{} frames  {:.0f} s  {:.1f} MB  lost: {}", writer.frames(),
+          fmt::format("{} frames  {:.0f} s  {:.1f} MB  lost{}", writer.frames(),
                       seconds_since(began_), static_cast<double>(writer.bytes()) / 1e6,
-                      losses_.by_reason().empty() ? "none" : counts_text(losses_.by_reason())));
+                      losses_.by_reason().empty() ? " none" : counts_text(losses_.by_reason())));
     }
   }
   void note(std::string const& text) {

@@ -42,9 +42,9 @@ public:
       listen();
       if (line_.is_due()) {
         line_.show(
-            fmt::format("{} frames  {:.0f} s  {:.1f} MB  lost: {}", recorder_.seen(), seconds(),
+            fmt::format("{} frames  {:.0f} s  {:.1f} MB  lost{}", recorder_.seen(), seconds(),
                         static_cast<double>(size_bytes(order_.out)) / 1e6,
-                        losses_.by_reason().empty() ? "none" : counts_text(losses_.by_reason())));
+                        losses_.by_reason().empty() ? " none" : counts_text(losses_.by_reason())));
       }
     }
     line_.finish();

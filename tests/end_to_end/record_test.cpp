@@ -308,15 +308,16 @@ TEST_F(Record, NoFrameLeavesNothing) {
 
 // A limit on the size of files stands for a full disk.
 TEST_F(Record, AFullDiskIsToldAndWhatWasWrittenStays) {
-  auto const limited = [&](std::string const& kilobytes, std::string const& name) {
+  auto const limited = [&](std::string const& kilobytes, std::string const& name,
+                           std::string const& seconds) {
     std::vector<std::string> command = {
         "bash", "-c", "trap '' XFSZ; ulimit -f " + kilobytes + "; exec \"$@\"", "bash"};
-    for (std::string const& word : credo_command(arguments(name, {"--seconds", "20"}))) {
+    for (std::string const& word : credo_command(arguments(name, {"--seconds", seconds}))) {
       command.push_back(word);
     }
     return Program(command).wait();
   };
-  Ended const folder = limited("16", "out");
+  Ended const folder = limited("16", "out", "60");
   EXPECT_EQ(folder.code, 2) << folder.err;
   EXPECT_THAT(folder.err,
               ContainsRegex("credo: .*: cannot be written: is the disk full.* The [0-9]+ "
@@ -327,7 +328,7 @@ TEST_F(Record, AFullDiskIsToldAndWhatWasWrittenStays) {
   expect_as_played(read);
   EXPECT_TRUE(sha256sum_passes(folder_ / "out/SHA256SUMS"));
 
-  Ended const oni = limited("500", "a.oni");
+  Ended const oni = limited("500", "a.oni", "3");
   EXPECT_EQ(oni.code, 2) << oni.err;
   EXPECT_THAT(oni.err, HasSubstr("is the disk full"));
   EXPECT_FALSE(fs::exists(folder_ / "a.oni.sha256"));
