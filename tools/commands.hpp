@@ -10,6 +10,7 @@ using Command = std::function<int()>;
 
 // Each adds its subcommand to the command line, which sets `chosen` when it is used.
 void add_run_command(CLI::App& app, Command& chosen);
+void add_record_command(CLI::App& app, Command& chosen);
 void add_watch_command(CLI::App& app, Command& chosen);
 void add_simulate_command(CLI::App& app, Command& chosen);
 void add_eval_command(CLI::App& app, Command& chosen);

@@ -17,6 +17,7 @@ constexpr int kBadInput = 2;
 constexpr char const* kExamples = R"(Examples:
   credo run --source dataset:recordings/kitchen --out out/kitchen --dump labels,pictures
   credo run --source dataset:recordings/kitchen --frames 40 --set graph.threads=1
+  credo record --source openni: --out data/desk
   credo watch --json --once --timeout 5
   credo simulate first-light --out data/room --set sim.sensor=disparity
   credo eval out/room --truth data/room
@@ -42,6 +43,7 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   credo::Command chosen;
   credo::add_run_command(app, chosen);
+  credo::add_record_command(app, chosen);
   credo::add_watch_command(app, chosen);
   credo::add_simulate_command(app, chosen);
   credo::add_eval_command(app, chosen);

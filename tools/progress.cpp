@@ -2,26 +2,12 @@
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdio>
 
 namespace credo {
 namespace {
-
-constexpr auto kRedraw = std::chrono::milliseconds(100);
-constexpr auto kNewLine = std::chrono::seconds(5);
-constexpr int kLostTold = 10;
-
-std::string counts_text(std::map<std::string, std::uint64_t> const& counts) {
-  std::string text;
-  for (auto const& [reason, count] : counts) {
-    text += fmt::format("{}{} {}", text.empty() ? " (" : ", ", count, reason);
-  }
-  return text.empty() ? text : text + ")";
-}
 
 std::ptrdiff_t seen_objects(BeliefState const& belief) {
   return std::ranges::count(belief.objects, Evidence::kSeen, &ObjectBelief::evidence);
@@ -35,7 +21,7 @@ void append_row(std::string& table, std::string const& name, DurationQuantiles c
 }  // namespace
 
 Progress::Progress(std::optional<std::int64_t> frame_count)
-    : terminal_(isatty(STDERR_FILENO) != 0), frame_count_(frame_count), last_shown_(Clock::now()) {}
+    : frame_count_(frame_count), last_shown_(Clock::now()) {}
 
 void Progress::show(FrameResult const& result) {
   for (std::string const& line : detections_.told(*result.segmentation)) {
@@ -43,42 +29,22 @@ void Progress::show(FrameResult const& result) {
     spdlog::warn(line);
   }
   ++frames_since_;
-  auto const now = Clock::now();
-  auto const since = now - last_shown_;
-  if (since < (terminal_ ? Clock::duration(kRedraw) : Clock::duration(kNewLine))) {
+  if (!line_.is_due()) {
     return;
   }
+  auto const now = Clock::now();
+  auto const since = now - last_shown_;
   BeliefState const& belief = *result.belief;
   std::string const of = frame_count_.has_value() ? fmt::format("/{}", *frame_count_) : "";
-  std::string const line =
+  line_.show(
       fmt::format("frame {}{}  {:.1f} fps  {:.0f} ms  {}, {} walls, {} objects seen, {} stuff",
                   number(belief.frame) + 1, of,
                   static_cast<double>(frames_since_) / std::chrono::duration<double>(since).count(),
                   std::chrono::duration<double, std::milli>(now - result.captured).count(),
                   belief.floor.has_value() ? "floor" : "no floor", belief.walls.size(),
-                  seen_objects(belief), belief.stuff.size());
-  fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\033[K" : "\n");
-  std::fflush(stderr);
-  line_open_ = terminal_;
+                  seen_objects(belief), belief.stuff.size()));
   last_shown_ = now;
   frames_since_ = 0;
-}
-
-void Progress::lost(FrameFailure const& failure) {
-  int const told = ++lost_by_reason_[failure.reason];
-  if (told > kLostTold) {
-    return;
-  }
-  finish();
-  spdlog::warn("frame {} lost: {}: {}{}", number(failure.index), failure.reason, failure.message,
-               told == kLostTold ? " (more of these are only counted)" : "");
-}
-
-void Progress::finish() {
-  if (line_open_) {
-    fmt::print(stderr, "\r\033[K");
-    line_open_ = false;
-  }
 }
 
 std::string summary_table(RunMetrics const& metrics) {

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 
@@ -10,6 +9,7 @@
 #include "core/run_metrics.hpp"
 #include "detection_log.hpp"
 #include "graph/run_sink.hpp"
+#include "status_line.hpp"
 
 namespace credo {
 
@@ -23,21 +23,20 @@ public:
 
   void show(FrameResult const& result);
   /// Logs the first few of each reason; the rest are only counted.
-  void lost(FrameFailure const& failure);
+  void lost(FrameFailure const& failure) { losses_.add(failure, line_); }
   /// Ends the redrawn line.
-  void finish();
+  void finish() { line_.finish(); }
   /// What became of detections; empty where nobody looked for objects.
   [[nodiscard]] std::string detection_summary() const { return detections_.summary(); }
 
 private:
   using Clock = std::chrono::steady_clock;
 
-  bool terminal_;
+  StatusLine line_;
   std::optional<std::int64_t> frame_count_;
   Clock::time_point last_shown_;
   std::int64_t frames_since_ = 0;
-  bool line_open_ = false;
-  std::map<std::string, int> lost_by_reason_;
+  LossLog losses_;
   DetectionLog detections_;
 };
 

@@ -1,5 +1,4 @@
 #include <spdlog/fmt/fmt.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -30,6 +29,7 @@
 #include "progress.hpp"
 #include "run_output.hpp"
 #include "source_uri.hpp"
+#include "status_line.hpp"
 #include "stop_on_signal.hpp"
 
 namespace credo {
@@ -81,12 +81,6 @@ void check_usage(RunCommand const& command) {
   if (!command.dump.empty() && !command.out.has_value()) {
     throw InputError("--dump has nowhere to write: add --out DIR");
   }
-}
-
-void log_to_stderr() {
-  auto logger = spdlog::stderr_color_mt("credo");
-  logger->set_pattern("%^%l%$: %v");
-  spdlog::set_default_logger(std::move(logger));
 }
 
 WorldLevel level_of(ReadAhead& source, PipelineConfig const& config, Workers& workers) {

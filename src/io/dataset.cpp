@@ -4,16 +4,20 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/checksums.hpp"
 #include "io/dataset_listing.hpp"
 #include "io/image.hpp"
 #include "io/intrinsics.hpp"
 #include "io/pcd.hpp"
+#include "io/recording_file.hpp"
 #include "io/trajectory.hpp"
 
 namespace credo {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr char const* kChecksum = "checksum";
 
 /// A fault of one frame, on its way to becoming a FrameFailure.
 struct FrameFault {
@@ -49,7 +53,12 @@ public:
       : folder_(std::move(folder)),
         capture_(capture),
         pose_source_(pose.source),
-        listing_(list_dataset(folder_)) {
+        sums_(folder_ / kChecksumFile) {
+    for (char const* name :
+         {kRecordingFile, "camera-intrinsics.txt", "rgb.txt", "groundtruth.txt", "depth.txt"}) {
+      sums_.check(folder_ / name);
+    }
+    listing_ = list_dataset(folder_, sums_);
     if (capture.depth_unit_m > 0) {
       listing_.depth_unit_m = capture.depth_unit_m;
     }
@@ -59,11 +68,11 @@ public:
       }
       trajectory_.emplace(pose.file);
     }
-    SourceResult first = load(0);
-    if (auto const* failure = std::get_if<FrameFailure>(&first)) {
+    first_ = load(0);
+    auto const* failure = std::get_if<FrameFailure>(&first_);
+    if (failure != nullptr && failure->reason != kChecksum) {
       throw InputError(failure->message);
     }
-    first_ = std::get<FramePtr>(first);
   }
 
   [[nodiscard]] std::size_t frame_count() const { return listing_.entries.size(); }
@@ -74,7 +83,7 @@ public:
       return EndOfSource{};
     }
     std::size_t const index = position_++;
-    return index == 0 ? SourceResult(std::move(first_)) : load(index);
+    return index == 0 ? std::move(first_) : load(index);
   }
 
 private:
@@ -113,14 +122,16 @@ private:
     if (entry.depth.empty()) {
       throw FrameFault{"missing_depth", entry.color.string() + ": colour without depth"};
     }
-    if (entry.color.empty()) {
+    if (entry.color.empty() && !listing_.color_may_lack) {
       throw FrameFault{"missing_color", entry.depth.string() + ": depth without colour"};
     }
     Grid<float> depth_m = read_depth(entry.depth);
     check_size(depth_m.width(), depth_m.height(), entry.depth);
     Pictures pictures;
-    pictures.color = read_frame_color(entry.color);
-    if (!pictures.color.same_size(depth_m)) {
+    if (!entry.color.empty()) {
+      pictures.color = read_frame_color(entry.color);
+    }
+    if (!entry.color.empty() && !pictures.color.same_size(depth_m)) {
       throw FrameFault{"wrong_size",
                        entry.color.string() + ": is " +
                            size_text(pictures.color.width(), pictures.color.height()) +
@@ -132,7 +143,7 @@ private:
 
   [[nodiscard]] Grid<float> read_depth(fs::path const& path) const {
     try {
-      Grid<std::uint16_t> const counts = read_png16(path);
+      Grid<std::uint16_t> const counts = decode_png16(verified_bytes(path), path);
       auto const unit_m = static_cast<float>(listing_.depth_unit_m);
       auto const farthest_m = static_cast<float>(capture_.max_depth_m);
       Grid<float> depth_m(counts.width(), counts.height());
@@ -146,15 +157,41 @@ private:
     }
   }
 
-  static Grid<Rgb> read_frame_color(fs::path const& path) {
+  [[nodiscard]] Grid<Rgb> read_frame_color(fs::path const& path) const {
     try {
-      return read_color(path);
+      return decode_color(verified_bytes(path), path);
     } catch (ImageError const& error) {
       throw fault_of(error, "missing_color");
     }
   }
 
+  /// A file that others read.
+  void verify(fs::path const& path) const {
+    if (sums_.lists(path)) {
+      try {
+        static_cast<void>(verified_bytes(path));
+      } catch (ImageError const& error) {
+        throw FrameFault{kChecksum, error.what()};
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<unsigned char> verified_bytes(fs::path const& path) const {
+    if (sums_.lists(path) && !fs::exists(path)) {
+      throw FrameFault{kChecksum, path.string() + ": is listed in " + kChecksumFile +
+                                      ", but not there; restore it from a copy"};
+    }
+    std::vector<unsigned char> bytes = read_bytes(path);
+    if (sums_.of(path, bytes) == Checksums::Verdict::kDamaged) {
+      throw FrameFault{kChecksum, path.string() +
+                                      ": is damaged: it does not match its checksum in " +
+                                      kChecksumFile + "; restore it from a copy"};
+    }
+    return bytes;
+  }
+
   Pictures read_cloud(DatasetEntry const& entry) {
+    verify(entry.cloud);
     try {
       ColoredCloud read = read_pcd(entry.cloud, capture_.axes, capture_.max_depth_m);
       check_size(read.cloud_camera.width(), read.cloud_camera.height(), entry.cloud);
@@ -174,6 +211,7 @@ private:
     } else if (!listing_.has_poses) {
       return {};
     } else if (!entry.pose_file.empty()) {
+      verify(entry.pose_file);
       try {
         return read_pose(entry.pose_file);
       } catch (InputError const& error) {
@@ -191,13 +229,14 @@ private:
   fs::path folder_;
   CaptureConfig capture_;
   PoseSource pose_source_;
+  Checksums sums_;
   DatasetListing listing_;
   std::optional<Trajectory> trajectory_;
   CameraIntrinsics intrinsics_;
   int width_ = 0;
   int height_ = 0;
   std::size_t position_ = 0;
-  FramePtr first_;
+  SourceResult first_;
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "core/frame.hpp"
+#include "io/recording_file.hpp"
 #include "io/trajectory.hpp"
 
 namespace credo {
@@ -85,7 +86,7 @@ struct StampedFile {
 }
 
 /// A TUM list: `stamp_s file` lines, in order of time.
-std::vector<StampedFile> read_tum_list(fs::path const& path) {
+std::vector<StampedFile> read_tum_list(fs::path const& path, LastLine last) {
   std::ifstream file(path);
   if (!file) {
     throw InputError(path.string() + ": cannot be read");
@@ -94,14 +95,17 @@ std::vector<StampedFile> read_tum_list(fs::path const& path) {
   int line_number = 0;
   for (std::string line; std::getline(file, line);) {
     ++line_number;
+    if (last == LastLine::kDropTorn && file.eof()) {
+      break;
+    }
     std::istringstream words(line.substr(0, line.find('#')));
     if ((words >> std::ws).eof()) {
       continue;
     }
-    double stamp_s = 0;
+    std::string stamp;
     std::string name;
-    words >> stamp_s >> name;
-    std::optional<std::int64_t> const stamp_ns = stamp_from_seconds(stamp_s);
+    words >> stamp >> name;
+    std::optional<std::int64_t> const stamp_ns = stamp_from_text(stamp);
     if (!words || !stamp_ns) {
       fail_at(path, line_number, "needs a stamp in seconds and a file name");
     }
@@ -114,13 +118,14 @@ std::vector<StampedFile> read_tum_list(fs::path const& path) {
 }
 
 /// The file nearest in time, the earlier of two that are equally near; empty where none is near.
-fs::path nearest_file(std::vector<StampedFile> const& list, std::int64_t stamp_ns) {
+fs::path nearest_file(std::vector<StampedFile> const& list, std::int64_t stamp_ns,
+                      std::int64_t most_gap_ns) {
   auto const after = std::lower_bound(
       list.begin(), list.end(), stamp_ns,
       [](StampedFile const& file, std::int64_t stamp) { return file.stamp_ns < stamp; });
   std::int64_t const until = after == list.end() ? kNever : after->stamp_ns - stamp_ns;
   std::int64_t const since = after == list.begin() ? kNever : stamp_ns - std::prev(after)->stamp_ns;
-  if (std::min(since, until) > kMaxStampGapNs) {
+  if (std::min(since, until) > most_gap_ns) {
     return {};
   }
   return since <= until ? std::prev(after)->path : after->path;
@@ -141,33 +146,44 @@ void drop_early_start(DatasetListing& listing, fs::path const& folder) {
   }
 }
 
-DatasetListing list_tum(fs::path const& folder) {
-  std::vector<StampedFile> const depth = read_tum_list(folder / "depth.txt");
-  std::vector<StampedFile> const color = read_tum_list(folder / "rgb.txt");
+DatasetListing list_tum(fs::path const& folder, Checksums const& sums) {
+  std::optional<RecordingInfo> const recording = read_recording_info(folder);
+  bool const cut = recording && !sums.lists(folder / "depth.txt");
+  LastLine const last = cut ? LastLine::kDropTorn : LastLine::kKeep;
+  std::vector<StampedFile> const depth = read_tum_list(folder / "depth.txt", last);
+  std::vector<StampedFile> const color = read_tum_list(folder / "rgb.txt", last);
   std::optional<Trajectory> trajectory;
   if (fs::exists(folder / "groundtruth.txt")) {
-    trajectory.emplace(folder / "groundtruth.txt");
+    trajectory.emplace(folder / "groundtruth.txt", last);
   }
   DatasetListing listing;
-  listing.depth_unit_m = kTumDepthUnitM;
-  listing.color_registered = true;
+  listing.depth_unit_m = recording ? recording->depth_unit_m : kTumDepthUnitM;
+  listing.color_registered = !recording || recording->color_registered;
+  listing.color_may_lack = recording.has_value();
   listing.has_poses = trajectory.has_value();
   for (StampedFile const& image : depth) {
     DatasetEntry entry;
     entry.stamp_ns = image.stamp_ns;
     entry.depth = image.path;
-    entry.color = nearest_file(color, image.stamp_ns);
+    entry.color = nearest_file(color, image.stamp_ns, recording ? 0 : kMaxStampGapNs);
     if (trajectory) {
       FrameIndex const index{static_cast<std::int64_t>(listing.entries.size())};
       entry.pose = trajectory->at(index, image.stamp_ns);
     }
     listing.entries.push_back(std::move(entry));
   }
-  drop_early_start(listing, folder);
+  if (!recording) {
+    drop_early_start(listing, folder);
+  }
+  if (cut) {
+    listing.warnings.push_back(
+        folder.string() + ": the recording was cut short, or not closed; what is whole is read");
+  }
   return listing;
 }
 
-std::vector<fs::path> files_in(fs::path const& folder) {
+/// Those that are there, and those that should be.
+std::vector<fs::path> files_in(fs::path const& folder, Checksums const& sums) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
     throw InputError("dataset " + folder.string() +
@@ -182,16 +198,21 @@ std::vector<fs::path> files_in(fs::path const& folder) {
     throw InputError("dataset " + folder.string() +
                      ": cannot be read: " + failure.code().message());
   }
+  for (auto const& [file, sum] : sums.all()) {
+    if (file.parent_path() == folder.lexically_normal() && !fs::exists(file)) {
+      files.push_back(folder / file.filename());
+    }
+  }
   std::sort(files.begin(), files.end());
   return files;
 }
 
 }  // namespace
 
-DatasetListing list_dataset(fs::path const& folder) {
-  std::vector<fs::path> const files = files_in(folder);
+DatasetListing list_dataset(fs::path const& folder, Checksums const& sums) {
+  std::vector<fs::path> const files = files_in(folder, sums);
   if (fs::exists(folder / "depth.txt") && fs::exists(folder / "rgb.txt")) {
-    DatasetListing listing = list_tum(folder);
+    DatasetListing listing = list_tum(folder, sums);
     if (!listing.entries.empty()) {
       return listing;
     }

@@ -1,13 +1,12 @@
 #include "io/dataset_writer.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <utility>
 
 #include "core/error.hpp"
 #include "io/image.hpp"
+#include "io/tum_text.hpp"
 
 namespace credo {
 namespace {
@@ -26,33 +25,12 @@ Grid<std::uint16_t> counts_of(Grid<float> const& depth_m) {
   return counts;
 }
 
-template <typename... Values>
-std::string text(char const* format, Values... values) {
-  std::array<char, 512> line{};
-  std::snprintf(line.data(), line.size(), format, values...);  // NOLINT(*-vararg)
-  return line.data();
-}
-
-std::string file_name(FrameIndex frame) {
-  return text("%06lld.png", static_cast<long long>(number(frame)));
-}
-
-std::string stamp_text(std::int64_t stamp_ns) {
-  return text("%lld.%09lld", static_cast<long long>(stamp_ns / 1'000'000'000),
-              static_cast<long long>(stamp_ns % 1'000'000'000));
-}
-
 std::ofstream opened(fs::path const& path) {
   std::ofstream file(path, std::ios::binary);
   if (!file) {
     throw InputError(path.string() + ": cannot be written");
   }
   return file;
-}
-
-void write_intrinsics(fs::path const& path, CameraIntrinsics const& k) {
-  std::ofstream file = opened(path);
-  file << text("%.17g 0 %.17g\n0 %.17g %.17g\n0 0 1\n", k.fx_px, k.cx_px, k.fy_px, k.cy_px);
 }
 
 }  // namespace
@@ -84,24 +62,20 @@ void DatasetWriter::append(std::ofstream& list, std::string const& name,
 
 void DatasetWriter::write(Frame const& frame) {
   if (!fs::exists(folder_ / "camera-intrinsics.txt")) {
-    write_intrinsics(folder_ / "camera-intrinsics.txt", frame.intrinsics);
+    opened(folder_ / "camera-intrinsics.txt") << intrinsics_text(frame.intrinsics);
   }
-  std::string const file = file_name(frame.index);
-  std::string const stamp = stamp_text(frame.stamp_ns);
+  std::string const file = tum_image_name(frame.index);
+  std::string const stamp = tum_stamp(frame.stamp_ns);
   write_png16(folder_ / "depth" / file, counts_of(frame.cloud_camera.z));
   write_png_rgb(folder_ / "rgb" / file, frame.color);
   append(depth_, "depth.txt", stamp + " depth/" + file);
   append(color_, "rgb.txt", stamp + " rgb/" + file);
-  Eigen::Vector3d const& t = frame.T_source_camera.translation();
-  Eigen::Quaterniond const& q = frame.T_source_camera.rotation();
-  append(poses_, "groundtruth.txt",
-         stamp + text(" %.17g %.17g %.17g %.17g %.17g %.17g %.17g", t.x(), t.y(), t.z(), q.x(),
-                      q.y(), q.z(), q.w()));
+  append(poses_, "groundtruth.txt", tum_pose(frame.stamp_ns, frame.T_source_camera));
 }
 
 void DatasetWriter::write_truth(FrameIndex frame, std::string const& json_line,
                                 LabelMap const& labels) {
-  write_png16(folder_ / "truth" / file_name(frame), labels);
+  write_png16(folder_ / "truth" / tum_image_name(frame), labels);
   append(truth_, "truth.jsonl", json_line);
 }
 

@@ -32,26 +32,6 @@ struct JpegDeleter {
   throw ImageError(fault, path.string() + ": " + what);
 }
 
-Bytes read_bytes(std::filesystem::path const& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    fail(ImageFault::kMissing, path, "no such file");
-  }
-  auto const size = std::filesystem::file_size(path, error);
-  if (error) {
-    fail(ImageFault::kUnreadable, path, "cannot be read: " + error.message());
-  }
-  if (size == 0) {
-    fail(ImageFault::kTruncated, path, "empty file");
-  }
-  Bytes bytes(size);
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
-    fail(ImageFault::kUnreadable, path, "cannot be read");
-  }
-  return bytes;
-}
-
 bool is_png(Bytes const& bytes) {
   return bytes.size() >= 4 && bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N' &&
          bytes[3] == 'G';
@@ -179,8 +159,27 @@ spng_ihdr header_of(int width, int height, std::uint8_t bits, std::uint8_t color
 
 }  // namespace
 
-Grid<std::uint16_t> read_png16(std::filesystem::path const& path) {
-  Bytes const bytes = read_bytes(path);
+Bytes read_bytes(std::filesystem::path const& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    fail(ImageFault::kMissing, path, "no such file");
+  }
+  auto const size = std::filesystem::file_size(path, error);
+  if (error) {
+    fail(ImageFault::kUnreadable, path, "cannot be read: " + error.message());
+  }
+  if (size == 0) {
+    fail(ImageFault::kTruncated, path, "empty file");
+  }
+  Bytes bytes(size);
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
+    fail(ImageFault::kUnreadable, path, "cannot be read");
+  }
+  return bytes;
+}
+
+Grid<std::uint16_t> decode_png16(Bytes const& bytes, std::filesystem::path const& path) {
   spng_ihdr header{};
   Context const context = open_png(bytes, path, header);
   if (header.bit_depth != 16 || header.color_type != SPNG_COLOR_TYPE_GRAYSCALE) {
@@ -192,6 +191,10 @@ Grid<std::uint16_t> read_png16(std::filesystem::path const& path) {
   // SPNG_FMT_PNG is the stored format in host byte order.
   decode_png(context, image.data(), image.size() * sizeof(std::uint16_t), SPNG_FMT_PNG, path);
   return image;
+}
+
+Grid<std::uint16_t> read_png16(std::filesystem::path const& path) {
+  return decode_png16(read_bytes(path), path);
 }
 
 Grid<Rgb> decode_color(Bytes const& bytes, std::filesystem::path const& name) {

@@ -24,9 +24,15 @@ private:
   ImageFault fault_;
 };
 
+/// All of a file. Throws ImageError where it is not there, empty, or cannot be read.
+std::vector<unsigned char> read_bytes(std::filesystem::path const& path);
+
 /// A 16-bit grey PNG, counts as stored. Anything else throws ImageError: a depth image saved with 8
 /// bits has lost its depth.
 Grid<std::uint16_t> read_png16(std::filesystem::path const& path);
+/// The same from memory; `name` is for what is thrown.
+Grid<std::uint16_t> decode_png16(std::vector<unsigned char> const& bytes,
+                                 std::filesystem::path const& name);
 
 /// An 8-bit colour or grey image, PNG or JPEG by content. Cut files throw ImageError, also where
 /// the decoder would fill the rest with grey.

@@ -50,6 +50,23 @@ std::optional<std::int64_t> stamp_from_seconds(double stamp_s) {
   return static_cast<std::int64_t>(std::llround(stamp_s * 1e9));
 }
 
+std::optional<std::int64_t> stamp_from_text(std::string const& word) {
+  std::size_t const point = std::min(word.find('.'), word.size());
+  std::string const whole = word.substr(0, point);
+  std::string part = word.substr(std::min(point + 1, word.size()));
+  auto const digits = [](std::string const& text) {
+    return text.find_first_not_of("0123456789") == std::string::npos;
+  };
+  if (!whole.empty() && whole.size() <= 9 + 1 && part.size() <= 9 && digits(whole) &&
+      digits(part) && std::stoll(whole) < static_cast<std::int64_t>(kMaxStampS)) {
+    part.append(9 - part.size(), '0');
+    return std::stoll(whole) * 1'000'000'000 + std::stoll(part);
+  }
+  char* end = nullptr;
+  double const stamp_s = std::strtod(word.c_str(), &end);
+  return word.empty() || *end != '\0' ? std::nullopt : stamp_from_seconds(stamp_s);
+}
+
 Se3 read_pose(std::filesystem::path const& path) {
   std::ifstream file(path);
   if (!file) {
@@ -68,7 +85,7 @@ Se3 read_pose(std::filesystem::path const& path) {
   }
 }
 
-Trajectory::Trajectory(std::filesystem::path const& path) {
+Trajectory::Trajectory(std::filesystem::path const& path, LastLine last) {
   std::ifstream file(path);
   if (!file) {
     throw InputError(path.string() + ": trajectory cannot be read");
@@ -76,10 +93,13 @@ Trajectory::Trajectory(std::filesystem::path const& path) {
   int line_number = 0;
   for (std::string line; std::getline(file, line);) {
     ++line_number;
+    if (last == LastLine::kDropTorn && file.eof()) {
+      break;
+    }
     try {
       std::vector<double> const numbers = numbers_in(line.substr(0, line.find('#')));
       if (!numbers.empty()) {
-        add_line(numbers);
+        add_line(numbers, line);
       }
     } catch (std::exception const& error) {
       throw InputError(path.string() + ":" + std::to_string(line_number) + ": " + error.what());
@@ -90,7 +110,7 @@ Trajectory::Trajectory(std::filesystem::path const& path) {
   }
 }
 
-void Trajectory::add_line(std::vector<double> const& numbers) {
+void Trajectory::add_line(std::vector<double> const& numbers, std::string const& line) {
   bool const by_stamp = numbers.size() == 8;
   if (!by_stamp && numbers.size() != 12 && numbers.size() != 16) {
     throw std::invalid_argument("needs 8 (stamp, position, quaternion), 12 or 16 numbers, has " +
@@ -109,7 +129,10 @@ void Trajectory::add_line(std::vector<double> const& numbers) {
       throw std::invalid_argument("pose has a number that is not finite");
     }
   }
-  std::optional<std::int64_t> const stamp_ns = stamp_from_seconds(numbers[0]);
+  std::istringstream words(line);
+  std::string stamp;
+  words >> stamp;
+  std::optional<std::int64_t> const stamp_ns = stamp_from_text(stamp);
   if (!stamp_ns) {
     throw std::invalid_argument("stamp is no time in seconds");
   }

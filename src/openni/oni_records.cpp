@@ -201,6 +201,7 @@ public:
       enter(*record);
       at = record->end();
     }
+    end_bytes_ = ended ? at : 0;
     if (!ended) {
       warnings_.insert(warnings_.begin(),
                        path_.string() + ": cut short: it does not say where it ends");
@@ -306,7 +307,7 @@ private:
   }
 
   OniIndex result() {
-    OniIndex index{{}, std::nullopt, std::move(warnings_)};
+    OniIndex index{{}, std::nullopt, end_bytes_, std::move(warnings_)};
     bool has_depth = false;
     for (auto& [id, node] : nodes_) {
       if (node.type != kDepthNode && node.type != kImageNode) {
@@ -353,6 +354,7 @@ private:
   OniFile file_;
   fs::path path_;
   std::map<std::uint32_t, Node> nodes_;
+  std::uint64_t end_bytes_ = 0;
   std::vector<std::string> warnings_;
 };
 

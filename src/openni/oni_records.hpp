@@ -40,6 +40,8 @@ struct OniStream {
 struct OniIndex {
   OniStream depth;
   std::optional<OniStream> color;
+  /// Where its last record ends; 0 where that does not say that it is the last.
+  std::uint64_t end_bytes = 0;
   /// What is damaged or missing, a line each.
   std::vector<std::string> warnings;
 };

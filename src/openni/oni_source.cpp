@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "io/image.hpp"
 #include "io/trajectory.hpp"
+#include "openni/oni_checksum.hpp"
 #include "openni/oni_codec.hpp"
 #include "openni/oni_records.hpp"
 #include "openni/sensor_image.hpp"
@@ -242,6 +243,7 @@ private:
 }  // namespace
 
 OpenedSource open_oni(fs::path const& path, CaptureConfig const& capture, PoseConfig const& pose) {
+  check_oni_checksum(path);
   OpenedSource opened;
   auto source = std::make_unique<OniSource>(path, capture, pose);
   opened.warnings = source->warnings();

@@ -18,8 +18,8 @@ namespace credo {
 /// A long gap of lost images ends a run as other failures in a row do
 /// (graph.max_consecutive_failures).
 ///
-/// Throws InputError as index_oni does, and where the config does not fit. Later each bad frame is
-/// a FrameFailure:
+/// Throws InputError as index_oni and check_oni_checksum do, and where the config does not fit.
+/// Later each bad frame is a FrameFailure:
 ///  - lost_image: its bytes are damaged or cut off
 ///  - unreadable_image: depth that does not come out at its size, colour that is no image
 ///  - missing_pose: pose.file has none for its time

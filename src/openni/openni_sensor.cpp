@@ -93,8 +93,7 @@ public:
   Open(Open&&) = delete;
   Open& operator=(Open&&) = delete;
   ~Open() {
-    depth_.stop();
-    color_.stop();
+    stop_recording();
     if (device_.isFile()) {
       // OpenNI2's player of recordings has crashed where streams went while it still played.
       device_.close();
@@ -148,6 +147,24 @@ public:
     bool const started = color_.start() == openni::STATUS_OK;
     apply_color_settings();
     return started;
+  }
+
+  void start_recording(std::filesystem::path const& file) {
+    constexpr bool kWithLoss = false;
+    if (recorder_.create(std::filesystem::absolute(file).c_str()) != openni::STATUS_OK ||
+        recorder_.attach(depth_, kWithLoss) != openni::STATUS_OK ||
+        (has_color() && recorder_.attach(color_, kWithLoss) != openni::STATUS_OK) ||
+        recorder_.start() != openni::STATUS_OK) {
+      throw InputError(file.string() + ": OpenNI2 does not record into it: " + openni_error());
+    }
+  }
+  /// In this order: a recorder that is stopped while an image comes waits for its stream, and that
+  /// for the recorder, for ever.
+  void stop_recording() {
+    depth_.stop();
+    color_.stop();
+    recorder_.stop();
+    recorder_.destroy();
   }
 
 private:
@@ -289,6 +306,7 @@ private:
   std::optional<Listener> listener_;
   openni::VideoStream depth_;
   openni::VideoStream color_;
+  openni::Recorder recorder_;
   openni::VideoMode mode_;
   std::vector<std::string> warnings_;
 };
@@ -323,6 +341,12 @@ SensorImage OpenniSensor::next(std::chrono::milliseconds most) {
 }
 bool OpenniSensor::restart_color() {
   return open_->restart_color();
+}
+void OpenniSensor::start_recording(std::filesystem::path const& file) {
+  open_->start_recording(file);
+}
+void OpenniSensor::stop_recording() {
+  open_->stop_recording();
 }
 
 OpenniLibrary::OpenniLibrary() {

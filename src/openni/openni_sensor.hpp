@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -69,6 +70,12 @@ public:
   SensorImage next(std::chrono::milliseconds most);
   /// Stops colour and starts it again, with its settings; false where it does not start.
   bool restart_color();
+
+  /// Has OpenNI2's recorder write what the streams give into a file, without loss, whether `next`
+  /// takes it or not. Throws InputError where it does not begin.
+  void start_recording(std::filesystem::path const& file);
+  /// Stops the streams, too.
+  void stop_recording();
 
 private:
   class Open;

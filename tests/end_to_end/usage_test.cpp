@@ -88,8 +88,9 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(CommandLine, HelpHasExamplesAndExitsWith0) {
   for (std::vector<std::string> const& command : {std::vector<std::string>{"--help"},
                                                   {"run", "--help"},
-                                                  {"config", "--help"},
-                                                  {"calibrate", "--help"}}) {
+                                                  {"calibrate", "--help"},
+                                                  {"record", "--help"},
+                                                  {"config", "--help"}}) {
     Ended const ended = test::credo(command);
     EXPECT_EQ(ended.code, 0);
     EXPECT_THAT(ended.out, HasSubstr("Examples:\n  credo "));
@@ -107,7 +108,7 @@ TEST(CommandLine, HelpNamesEveryOption) {
   std::string const all = test::credo({"--help"}).out;
   EXPECT_THAT(all, HasSubstr("Exit codes: 0 done (also when stopped by Ctrl-C), 2 bad usage, "
                              "config or input, 1 anything else."));
-  for (char const* command : {"\n  run ", "\n  calibrate ", "\n  config "}) {
+  for (char const* command : {"\n  run ", "\n  record ", "\n  calibrate ", "\n  config "}) {
     EXPECT_THAT(all, HasSubstr(command));
   }
   EXPECT_THAT(test::credo({"--version"}).out, StartsWith("credo 0."));

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 namespace credo::test {
@@ -38,6 +39,19 @@ private:
 
 inline void write_text(std::filesystem::path const& path, std::string const& text) {
   std::ofstream(path, std::ios::binary) << text;
+}
+
+inline std::string text_of(std::filesystem::path const& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Turns one bit of the byte at a share of a file's length.
+inline void damage_file(std::filesystem::path const& path, double share) {
+  std::string text = text_of(path);
+  char& byte = text.at(static_cast<std::size_t>(static_cast<double>(text.size()) * share));
+  byte = static_cast<char>(byte ^ 1);
+  write_text(path, text);
 }
 
 /// Cuts a file to a share of its length.
