@@ -86,8 +86,10 @@ INSTANTIATE_TEST_SUITE_P(
     [](auto const& instance) { return instance.param.name; });
 
 TEST(CommandLine, HelpHasExamplesAndExitsWith0) {
-  for (std::vector<std::string> const& command :
-       {std::vector<std::string>{"--help"}, {"run", "--help"}, {"config", "--help"}}) {
+  for (std::vector<std::string> const& command : {std::vector<std::string>{"--help"},
+                                                  {"run", "--help"},
+                                                  {"doctor", "--help"},
+                                                  {"config", "--help"}}) {
     Ended const ended = test::credo(command);
     EXPECT_EQ(ended.code, 0);
     EXPECT_THAT(ended.out, HasSubstr("Examples:\n  credo "));
