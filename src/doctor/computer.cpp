@@ -68,6 +68,21 @@ void judge_cpu(ComputerState const& computer, Section& section) {
   }
 }
 
+/// Where images come late, that may be this computer's fault, not the sensor's.
+void judge_load(ComputerState const& computer, Section& section) {
+  if (!computer.load) {
+    return;
+  }
+  std::string const found = fixed_text(*computer.load, 1) + " programs ran or wanted to, on " +
+                            std::to_string(computer.cores) + " cores, over the last minute";
+  if (*computer.load > computer.cores) {
+    section.warning("load", found + ": images may be late or lost for that alone",
+                    "end what you can do without (top), and then: credo doctor");
+  } else {
+    section.ok("load", found);
+  }
+}
+
 void judge_buffers(ComputerState const& computer, Section& section) {
   if (!computer.rmem_max_bytes) {
     section.warning("socket buffers", "net.core.rmem_max cannot be read",
@@ -92,8 +107,8 @@ void judge_interface(std::vector<NetworkInterface> const& interfaces, std::strin
     std::vector<std::string> names;
     std::ranges::transform(interfaces, std::back_inserter(names), &NetworkInterface::name);
     section.error(title, "is not there; there are " + joined(names),
-                  "name one of them: --set dds.interface=" +
-                      (names.empty() ? std::string("lo") : names.front()));
+                  "--set dds.interface=lo keeps to this computer; to reach others, name one of "
+                  "these");
   } else if (!found->up) {
     section.error(title, "is down", "sudo ip link set " + name + " up");
   } else if (!found->multicast && !found->loopback) {
@@ -131,6 +146,9 @@ void judge_delivery(DdsDelivery const& delivery, DdsConfig const& config, bool u
 ComputerState read_computer(fs::path const& root) {
   ComputerState computer;
   computer.cores = static_cast<int>(std::thread::hardware_concurrency());
+  if (auto const load = first_line(root / "proc/loadavg")) {
+    computer.load = std::strtod(load->c_str(), nullptr);
+  }
   computer.cpu_flags = read_cpu_flags(root / "proc/cpuinfo");
   if (auto const limit = first_line(root / "proc/sys/net/core/rmem_max")) {
     computer.rmem_max_bytes = std::strtoll(limit->c_str(), nullptr, 10);
@@ -151,6 +169,7 @@ std::vector<Finding> computer_findings(ComputerState const& computer, DdsConfig 
                                        bool uri_given, DdsDelivery const& delivery) {
   Section section("this computer");
   judge_cpu(computer, section);
+  judge_load(computer, section);
   judge_buffers(computer, section);
   if (!uri_given) {
     judge_interface(computer.interfaces, config.interface_name, section);

@@ -31,6 +31,8 @@ struct DdsDelivery {
 /// What Credo needs of a computer.
 struct ComputerState {
   int cores = 0;
+  /// Of the last minute: programs that run or want to; none where the kernel does not tell.
+  std::optional<double> load;
   /// "avx2" and so on; empty where the kernel does not tell.
   std::vector<std::string> cpu_flags;
   /// What sockets may buffer at most; none where the kernel does not tell.
@@ -39,8 +41,8 @@ struct ComputerState {
   std::vector<NetworkInterface> interfaces;
 };
 
-/// Below `root`: proc/cpuinfo, proc/sys/net and sys/class/net. The cores are those that this
-/// process may use.
+/// Below `root`: proc/cpuinfo, proc/loadavg, proc/sys/net and sys/class/net. The cores are those
+/// that this process may use.
 ComputerState read_computer(std::filesystem::path const& root = "/");
 
 /// Sends a sample of a megabyte through DDS.

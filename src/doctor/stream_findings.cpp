@@ -22,31 +22,36 @@ constexpr double kBadClock_ppm = 1000.0;
 constexpr double kArrival_ms = 5.0;
 
 constexpr char const* kMakeRoom =
-    "plug it into another USB socket, without a hub, and nothing else into that controller (lsusb "
-    "-t); end what keeps this computer busy (top)";
+    "end what keeps this computer busy (top); then another USB socket, without a hub, and nothing "
+    "else on that controller (lsusb -t)";
+
+bool is_slow(StreamTiming const& timing, int mode_hz) {
+  return timing.rate_by_arrival_hz < kFullRate * mode_hz;
+}
 
 void judge_rate(std::string const& name, StreamTiming const& timing, int mode_hz,
                 Section& section) {
-  double const mode = mode_hz > 0 ? mode_hz : timing.rate_by_stamp_hz;
   std::string const found = fixed_text(timing.rate_by_arrival_hz, 1) + " images/s by arrival, " +
                             fixed_text(timing.rate_by_stamp_hz, 1) + " by its stamps, " +
                             std::to_string(mode_hz) + " by its mode; longest gap " +
                             fixed_text(1000.0 * timing.longest_gap_s, 0) + " ms";
-  if (timing.rate_by_arrival_hz < kHardlyAny * mode) {
+  if (timing.rate_by_arrival_hz < kHardlyAny * mode_hz) {
     section.error(name + " rate", found, kMakeRoom);
-  } else if (timing.rate_by_arrival_hz < kFullRate * mode) {
+  } else if (is_slow(timing, mode_hz)) {
     section.warning(name + " rate", found, kMakeRoom);
   } else {
     section.ok(name + " rate", found);
   }
 }
 
-void judge_losses(std::string const& name, StreamTiming const& timing, Section& section) {
+void judge_losses(std::string const& name, StreamTiming const& timing, int mode_hz,
+                  Section& section) {
   int const sent = timing.images + timing.lost;
   std::string const found =
       std::to_string(timing.lost) + " of " + std::to_string(sent) + " by their numbers";
   if (timing.lost > kFewLost * sent && timing.lost > 1) {
-    section.warning(name + " lost", found, kMakeRoom);
+    section.warning(name + " lost", found,
+                    is_slow(timing, mode_hz) ? "see " + name + " rate" : kMakeRoom);
   } else {
     section.ok(name + " lost", found);
   }
@@ -74,7 +79,7 @@ void judge_color(SensorMeasurement const& measured, Section& section) {
   } else {
     StreamTiming const timing = timing_of(measured.color);
     judge_rate("colour", timing, measured.color_rate_hz, section);
-    judge_losses("colour", timing, section);
+    judge_losses("colour", timing, measured.color_rate_hz, section);
   }
 }
 
@@ -146,7 +151,7 @@ std::vector<Finding> stream_findings(SensorMeasurement const& measured) {
   judge_first(measured, section);
   StreamTiming const timing = timing_of(measured.depth);
   judge_rate("depth", timing, measured.depth_rate_hz, section);
-  judge_losses("depth", timing, section);
+  judge_losses("depth", timing, measured.depth_rate_hz, section);
   if (measured.broken > 0) {
     section.error("depth images",
                   std::to_string(measured.broken) + " were not whole, as " + measured.broken_why,

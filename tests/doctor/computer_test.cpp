@@ -16,6 +16,7 @@ using ::testing::IsEmpty;
 struct FakeComputer : FakeRoot {
   FakeComputer() {
     write("proc/cpuinfo", "processor\t: 0\nflags\t\t: sse2 avx avx2\n\nprocessor\t: 1\n");
+    write("proc/loadavg", "0.75 0.50 0.25 1/200 1234\n");
     write("proc/sys/net/core/rmem_max", "4194304\n");
     write("sys/class/net/lo/flags", "0x9\n");
     write("sys/class/net/eth0/flags", "0x1003\n");
@@ -43,6 +44,7 @@ TEST(Computer, AllIsWell) {
   EXPECT_GE(read_computer(root.path()).cores, 1);
   EXPECT_THAT(findings_of(two_cores(root), "lo"),
               ElementsAre(ok("processor", "2 cores, AVX2"),
+                          ok("load", "0.8 programs ran or wanted to, on 2 cores"),
                           ok("socket buffers", "net.core.rmem_max is 4194304 bytes"),
                           ok("interface lo", "stays on this computer"),
                           ok("DDS", "in 5.0 ms, over lo, domain 0")));
@@ -62,6 +64,15 @@ TEST(Computer, ASlowProcessor) {
               ElementsAre(warning("processor", "1 core", "config/live.yaml")));
 }
 
+TEST(Computer, ABusyOne) {
+  FakeComputer const root;
+  root.write("proc/loadavg", "2.10 0.50 0.25 1/200 1234\n");
+  EXPECT_THAT(troubles(findings_of(two_cores(root), "lo")),
+              ElementsAre(warning("load", "2.1 programs", "top")));
+  std::filesystem::remove(root.path() / "proc/loadavg");
+  EXPECT_THAT(findings_of(two_cores(root), "lo"), testing::Not(Contains(ok("load"))));
+}
+
 TEST(Computer, SmallSocketBuffers) {
   FakeComputer const root;
   root.write("proc/sys/net/core/rmem_max", "212992\n");
@@ -77,7 +88,7 @@ TEST(Computer, AnInterfaceThatIsNotThere) {
   FakeComputer const root;
   EXPECT_THAT(troubles(findings_of(two_cores(root), "wlan0")),
               ElementsAre(error("interface wlan0", "is not there; there are eth0, lo",
-                                "--set dds.interface=eth0")));
+                                "--set dds.interface=lo")));
 }
 
 TEST(Computer, AnInterfaceThatIsDownOrWithoutMulticast) {

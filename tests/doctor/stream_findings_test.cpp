@@ -51,7 +51,7 @@ TEST(StreamFindings, HalfTheRate) {
   measured.depth = every(measured.depth, 2);
   EXPECT_THAT(troubles(stream_findings(measured)),
               ElementsAre(warning("depth rate", "15.0 images/s by arrival", "another USB socket"),
-                          warning("depth lost", "45 of 91 by their numbers")));
+                          warning("depth lost", "45 of 91 by their numbers", "see depth rate")));
 }
 
 TEST(StreamFindings, HardlyAnyImages) {
@@ -68,7 +68,8 @@ TEST(StreamFindings, LittleIsNoFault) {
   measured.color = shifted(measured.color, 4.9);
   EXPECT_THAT(troubles(stream_findings(measured)), IsEmpty());
   measured.depth.erase(measured.depth.begin() + 50);
-  EXPECT_THAT(troubles(stream_findings(measured)), ElementsAre(warning("depth lost", "2 of 91")));
+  EXPECT_THAT(troubles(stream_findings(measured)),
+              ElementsAre(warning("depth lost", "2 of 91", "another USB socket")));
 }
 
 TEST(StreamFindings, ColourAtHalfTheRate) {

@@ -21,40 +21,44 @@ using ::testing::HasSubstr;
 
 class Doctor : public ::testing::Test {
 protected:
-  /// A Kinect's view of a table in a room.
+  /// A Kinect's views of a table in a room: `room` registered, `raw` as its depth camera sees it.
   static void SetUpTestSuite() {
     folder_ = new TempFolder;
-    auto const dataset = *folder_ / "room";
-    std::filesystem::create_directories(dataset);
     Scene const scene = load_scene("cluttered-table");
     for (int i = 0; i < 6; ++i) {
       auto const views = sensor_views(scene, SensorModel::kGaussian, i / 6.0);
-      Grid<std::uint16_t> depth_mm(640, 480);
-      for (std::size_t p = 0; p < depth_mm.size(); ++p) {
-        float const z_m = views.registered_m[p];
-        depth_mm[p] = z_m > 0.0F ? static_cast<std::uint16_t>(1000.0F * z_m + 0.5F) : 0;
-      }
-      std::string const name = "000" + std::to_string(i);
-      write_png16(dataset / (name + ".depth.png"), depth_mm);
-      write_png_rgb(dataset / (name + ".color.png"), views.color);
+      write_images("room", i, views.registered_m, views.color);
+      write_images("raw", i, views.depth_m, views.color);
     }
-    write_text(dataset / "camera-intrinsics.txt", "525 0 319.5 0 525 239.5 0 0 1");
     ::setenv("LD_LIBRARY_PATH", CREDO_OPENNI2_FOLDER, 1);
+  }
+  static void write_images(std::string const& dataset, int image, Grid<float> const& depth_m,
+                           Grid<Rgb> const& color) {
+    auto const folder = *folder_ / dataset;
+    std::filesystem::create_directories(folder);
+    Grid<std::uint16_t> depth_mm(depth_m.width(), depth_m.height());
+    for (std::size_t p = 0; p < depth_mm.size(); ++p) {
+      depth_mm[p] = depth_m[p] > 0.0F ? static_cast<std::uint16_t>(1000.0F * depth_m[p] + 0.5F) : 0;
+    }
+    std::string const name = "000" + std::to_string(image);
+    write_png16(folder / (name + ".depth.png"), depth_mm);
+    write_png_rgb(folder / (name + ".color.png"), color);
+    write_text(folder / "camera-intrinsics.txt", "525 0 319.5 0 525 239.5 0 0 1");
   }
   static void TearDownTestSuite() {
     delete folder_;
     folder_ = nullptr;
   }
 
-  /// What doctor says of a sensor with that fault, where one is given.
-  void examine(std::string const& fault, std::vector<std::string> const& more = {}) {
+  /// What doctor says of a sensor with that fault, where one is given; or of another, where the
+  /// arguments name it.
+  void examine(std::string const& fault,
+               std::vector<std::string> arguments = {"--source", "openni:virtual://room"}) {
     write_text(*folder_ / "s.json",
                R"({"sensors": [{"name": "room", "dataset": "room", "rate_hz": 10, "faults": [)" +
-                   fault + "]}]}");
+                   fault + R"(]}, {"name": "raw", "dataset": "raw", "rate_hz": 10}]})");
     ::setenv("CREDO_VIRTUAL_SENSOR", (*folder_ / "s.json").c_str(), 1);
-    std::vector<std::string> arguments = {"doctor", "--json",   "--seconds",
-                                          "2",      "--source", "openni:virtual://room"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
+    arguments.insert(arguments.begin(), {"doctor", "--json", "--seconds", "2"});
     ended_ = credo(arguments);
     said_ = json::parse(ended_.out, nullptr, false);
   }
@@ -111,10 +115,19 @@ TEST_F(Doctor, HalfTheRate) {
   EXPECT_EQ(level("depth lost"), "warning");
 }
 
-TEST_F(Doctor, RegistrationThatIsIgnored) {
-  examine(R"({"fault": "registration_ignored"})");
+// It says that it registers, as every virtual sensor does, and its images are a depth camera's.
+TEST_F(Doctor, RegistrationThatIsNoneAsItsImagesShow) {
+  examine("", {"--source", "openni:virtual://raw"});
   EXPECT_EQ(level("registration"), "warning");
   EXPECT_THAT(said("registration", "found"), HasSubstr("its images show that it is not"));
+}
+
+// A virtual sensor's unregistered depth has its colour's focal length, as no Kinect's has: images
+// then do not tell.
+TEST_F(Doctor, RegistrationThatIsIgnored) {
+  examine(R"({"fault": "registration_ignored"})");
+  EXPECT_THAT(said("registration", "found"),
+              testing::Not(testing::EndsWith("and its images show it")));
 }
 
 TEST_F(Doctor, RegistrationThatIsMissing) {
@@ -144,7 +157,8 @@ TEST_F(Doctor, ASlowStart) {
 }
 
 TEST_F(Doctor, NothingAtAll) {
-  examine(R"({"fault": "stall"})", {"--set", "sensor.first_frame_s=0.5"});
+  examine(R"({"fault": "stall"})",
+          {"--source", "openni:virtual://room", "--set", "sensor.first_frame_s=0.5"});
   EXPECT_EQ(ended_.code, 1);
   EXPECT_EQ(said_["ok"], false);
   EXPECT_EQ(level("first depth image"), "error");
@@ -159,7 +173,7 @@ TEST_F(Doctor, ImagesThatAreNotWhole) {
 
 TEST_F(Doctor, ASensorThatIsNotThere) {
   examine("", {"--source", "openni:virtual://kitchen"});
-  EXPECT_EQ(ended_.code, 1);
+  ASSERT_EQ(ended_.code, 1) << ended_.err;
   EXPECT_THAT(said("opening", "found"), HasSubstr("openni:virtual://kitchen: no such sensor"));
 }
 
