@@ -1,12 +1,11 @@
 #pragma once
 
-#include <array>
-#include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,9 +13,9 @@ namespace credo {
 
 /// With so many digits after the point.
 inline std::string fixed_text(double value, int decimals) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(decimals) << value;
+  return text.str();
 }
 
 inline std::string percent_text(double share) {
@@ -25,9 +24,9 @@ inline std::string percent_text(double share) {
 
 /// "045e:02ae", as lsusb writes it.
 inline std::string usb_id_text(std::uint16_t vendor, std::uint16_t product) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%04x:%04x", unsigned{vendor}, unsigned{product});
-  return text.data();
+  std::ostringstream text;
+  text << std::hex << std::setfill('0') << std::setw(4) << vendor << ':' << std::setw(4) << product;
+  return text.str();
 }
 
 inline std::string joined(std::vector<std::string> const& texts) {

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iomanip>
+#include <sstream>
 #include <string_view>
 
 #include "doctor/text.hpp"
@@ -115,9 +116,10 @@ bool is_loaded(fs::path const& root, std::string_view module) {
 }  // namespace
 
 std::string UsbDevice::node() const {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "/dev/bus/usb/%03d/%03d", bus, number);
-  return text.data();
+  std::ostringstream text;
+  text << "/dev/bus/usb/" << std::setfill('0') << std::setw(3) << bus << '/' << std::setw(3)
+       << number;
+  return text.str();
 }
 
 UsbState read_usb(fs::path const& root) {
