@@ -16,6 +16,7 @@ void add_simulate_command(CLI::App& app, Command& chosen);
 void add_eval_command(CLI::App& app, Command& chosen);
 void add_devices_command(CLI::App& app, Command& chosen);
 void add_calibrate_command(CLI::App& app, Command& chosen);
+void add_doctor_command(CLI::App& app, Command& chosen);
 void add_config_command(CLI::App& app, Command& chosen);
 
 }  // namespace credo

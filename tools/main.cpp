@@ -49,6 +49,7 @@ int run_command_line(int argc, char** argv) {
   credo::add_eval_command(app, chosen);
   credo::add_devices_command(app, chosen);
   credo::add_calibrate_command(app, chosen);
+  credo::add_doctor_command(app, chosen);
   credo::add_config_command(app, chosen);
   try {
     app.parse(argc, argv);

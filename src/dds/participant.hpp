@@ -17,6 +17,9 @@ namespace credo {
 class Participant {
 public:
   explicit Participant(DdsConfig const& config);
+  /// Under another number in this process, and the config's on the network: so two of them in one
+  /// process meet there, and only there.
+  Participant(DdsConfig const& config, std::uint32_t domain_here);
 
   [[nodiscard]] std::int32_t handle() const { return participant_.handle(); }
   /// Of the config, or host and process.

@@ -111,6 +111,8 @@ public:
   [[nodiscard]] bool says_registered() const {
     return device_.getImageRegistrationMode() == openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
   }
+  [[nodiscard]] int depth_rate_hz() const { return mode_.getFps(); }
+  [[nodiscard]] int color_rate_hz() const { return color_.getVideoMode().getFps(); }
   [[nodiscard]] DepthOptics color_optics() const {
     return {mode_.getResolutionX(), mode_.getResolutionY(), color_.getHorizontalFieldOfView(),
             color_.getVerticalFieldOfView()};
@@ -326,6 +328,12 @@ DepthOptics OpenniSensor::color_optics() const {
 }
 bool OpenniSensor::has_color() const {
   return open_->has_color();
+}
+int OpenniSensor::depth_rate_hz() const {
+  return open_->depth_rate_hz();
+}
+int OpenniSensor::color_rate_hz() const {
+  return open_->color_rate_hz();
 }
 bool OpenniSensor::is_recording() const {
   return open_->is_recording();

@@ -59,6 +59,9 @@ public:
   [[nodiscard]] bool has_color() const;
   /// Of the colour camera; only where there is one.
   [[nodiscard]] DepthOptics color_optics() const;
+  /// Of the modes in which the streams run; colour's only where there is one.
+  [[nodiscard]] int depth_rate_hz() const;
+  [[nodiscard]] int color_rate_hz() const;
   /// A recording that OpenNI2 plays: of registration it knows nothing.
   [[nodiscard]] bool is_recording() const;
   /// Whether the sensor says that its depth is registered to its colour camera; asked anew.

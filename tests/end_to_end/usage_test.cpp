@@ -90,6 +90,7 @@ TEST(CommandLine, HelpHasExamplesAndExitsWith0) {
                                                   {"run", "--help"},
                                                   {"calibrate", "--help"},
                                                   {"record", "--help"},
+                                                  {"doctor", "--help"},
                                                   {"config", "--help"}}) {
     Ended const ended = test::credo(command);
     EXPECT_EQ(ended.code, 0);
@@ -108,7 +109,7 @@ TEST(CommandLine, HelpNamesEveryOption) {
   std::string const all = test::credo({"--help"}).out;
   EXPECT_THAT(all, HasSubstr("Exit codes: 0 done (also when stopped by Ctrl-C), 2 bad usage, "
                              "config or input, 1 anything else."));
-  for (char const* command : {"\n  run ", "\n  record ", "\n  calibrate ", "\n  config "}) {
+  for (char const* command : {"\n  run ", "\n  record ", "\n  calibrate ", "\n  doctor ", "\n  config "}) {
     EXPECT_THAT(all, HasSubstr(command));
   }
   EXPECT_THAT(test::credo({"--version"}).out, StartsWith("credo 0."));

@@ -61,6 +61,7 @@ std::vector<std::string> const& allowed_rooms(std::string const& room) {
       {"sim", {"core", "geometry", "io", "sim"}},
       {"eval", {"core", "geometry", "io", "eval"}},
       {"stages", {"core", "geometry", "stages"}},
+      {"doctor", {"core", "geometry", "openni", "dds", "stages", "doctor"}},
       {"graph", {"core", "geometry", "stages", "graph", "io"}},
   };
   auto const found = allowed.find(room);
@@ -69,9 +70,9 @@ std::vector<std::string> const& allowed_rooms(std::string const& room) {
 }
 
 std::set<std::string> const& rooms() {
-  static std::set<std::string> const all = {"core", "geometry", "config", "io",
-                                            "sim",  "eval",     "stages", "graph",
-                                            "dds",  "openni",   "drivers"};
+  static std::set<std::string> const all = {"core", "geometry", "config",  "io",
+                                            "sim",  "eval",     "stages",  "graph",
+                                            "dds",  "openni",   "drivers", "doctor"};
   return all;
 }
 
