@@ -16,6 +16,7 @@
 #include "core/object_model.hpp"
 #include "core/plane.hpp"
 #include "core/segments.hpp"
+#include "core/sight.hpp"
 
 namespace credo {
 
@@ -103,6 +104,8 @@ struct Segmentation {
   /// Whether a detector was asked: if not, that an object was not found says nothing.
   bool objects_looked_for = false;
   std::vector<StuffCluster> stuff;
+  /// The same in blocks, for the belief; empty where its rule does not ask.
+  Sight sight;
 };
 using SegmentationPtr = std::shared_ptr<Segmentation const>;
 
