@@ -80,6 +80,9 @@ struct StuffCluster {
   Eigen::AlignedBox3f bounds_world;
   /// Thinned to the spacing of the clustering's config, never empty.
   PointList points_world;
+  /// The cluster that it lies on so closely that depth alone could take it for a part of that, such
+  /// as a magazine on a table; none for most.
+  std::optional<LabelCode> lies_on;
 };
 
 /// What one frame shows: a label for every pixel, and what each label stands for. The stages pass

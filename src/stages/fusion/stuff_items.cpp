@@ -145,25 +145,43 @@ private:
 
   void associate() {
     std::vector<double> best(clusters_.size(), 0.0);
-    for (std::size_t i = 0; i < known_.stuff.size(); ++i) {
-      for (ClusterShare const& share : look(i).shares) {
-        if (!is_stuff(share.label) || share.agreement() < kLeastAgreement) {
-          continue;
-        }
-        auto const area = static_cast<double>(cluster(share.label).blocks.size());
-        double const blocks = share.blocks;
-        if (area < kLeastBlocks || (blocks <= kLeastShareOfCluster * area &&
-                                    blocks <= kLeastShareOfThing * look(i).blocks)) {
-          continue;
-        }
-        double const overlap = blocks / (area + look(i).blocks - blocks);
-        double& most = best[share.label - std::size_t{kFirstStuff}];
-        if (overlap > most) {
-          most = overlap;
-          given_to(share.label) = static_cast<std::int32_t>(i);
+    // First what lies on nothing: a thing that lies on another is not that one.
+    for (bool const lying : {false, true}) {
+      for (std::size_t i = 0; i < known_.stuff.size(); ++i) {
+        for (ClusterShare const& share : look(i).shares) {
+          if (!is_stuff(share.label) || (cluster(share.label).lies_on >= 0) != lying ||
+              is_base_of(i, share.label)) {
+            continue;
+          }
+          std::optional<double> const overlap = overlap_of(i, share);
+          double& most = best[share.label - std::size_t{kFirstStuff}];
+          if (overlap && *overlap > most) {
+            most = *overlap;
+            given_to(share.label) = static_cast<std::int32_t>(i);
+          }
         }
       }
     }
+  }
+
+  /// Whether a cluster lies on this thing.
+  [[nodiscard]] bool is_base_of(std::size_t item, LabelCode label) const {
+    std::int32_t const base = cluster(label).lies_on;
+    return base >= 0 &&
+           given_to_[static_cast<std::size_t>(base)] == static_cast<std::int32_t>(item);
+  }
+
+  /// What a thing and a cluster have in common, of what both have; none where that is too little.
+  [[nodiscard]] std::optional<double> overlap_of(std::size_t item,
+                                                 ClusterShare const& share) const {
+    auto const area = static_cast<double>(cluster(share.label).blocks.size());
+    double const blocks = share.blocks;
+    bool const enough =
+        blocks > kLeastShareOfCluster * area || blocks > kLeastShareOfThing * look(item).blocks;
+    if (share.agreement() < kLeastAgreement || area < kLeastBlocks || !enough) {
+      return std::nullopt;
+    }
+    return blocks / (area + look(item).blocks - blocks);
   }
 
   void update(std::size_t i) {
@@ -275,6 +293,9 @@ private:
     for (std::size_t const block : seen.blocks) {
       std::int32_t const owner = looks_.owners()[block];
       if (owner < 0) {
+        continue;
+      }
+      if (is_base_of(static_cast<std::size_t>(owner), label)) {
         continue;
       }
       auto const& shares = look(static_cast<std::size_t>(owner)).shares;

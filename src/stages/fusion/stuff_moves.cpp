@@ -80,7 +80,11 @@ std::vector<SeenCluster> clusters_of(Segmentation const& segmentation) {
   Sight const& sight = segmentation.sight;
   std::vector<SeenCluster> clusters(segmentation.stuff.size());
   for (std::size_t c = 0; c < clusters.size(); ++c) {
-    clusters[c].pixel_count = segmentation.stuff[c].pixel_count;
+    StuffCluster const& cluster = segmentation.stuff[c];
+    clusters[c].pixel_count = cluster.pixel_count;
+    if (cluster.lies_on) {
+      clusters[c].lies_on = static_cast<std::int32_t>(*cluster.lies_on) - kFirstStuff;
+    }
   }
   Eigen::Matrix3f const R = segmentation.T_world_camera.rotation().toRotationMatrix().cast<float>();
   Eigen::Vector3f const t = segmentation.T_world_camera.translation().cast<float>();
