@@ -75,6 +75,33 @@ struct ObjectBelief {
   std::optional<Look> last_seen;
 };
 
+/// A point of what is believed of a thing's surface. World frame.
+struct SurfacePoint {
+  Eigen::Vector3f p_world = Eigen::Vector3f::Zero();
+  /// Looks that it is the mean of, as far as they count.
+  float weight = 1.0F;
+  /// Looks through it, less those that agreed with it.
+  float missed = 0.0F;
+};
+
+/// What is believed of a thing's surface: at most one point to a cell of a grid.
+struct StuffModel {
+  float spacing_m = 0.0F;
+  /// Ascending; of the point that came first.
+  std::vector<std::uint64_t> cells;
+  std::vector<SurfacePoint> points;
+};
+
+/// What looks say of a thing: that it is there, that it has gone, or, where one sees through nearly
+/// all of it, that it has surely gone.
+enum class Verdict : std::uint8_t { kSeen, kGone, kSurelyGone };
+
+/// How much says that a thing is one with another.
+struct OneWith {
+  std::uint32_t id = 0;
+  double evidence = 0.0;
+};
+
 /// Something seen but not known: its clusters over time and the probability that it is there (4.3).
 struct StuffBelief {
   std::uint32_t id = 0;
@@ -85,6 +112,15 @@ struct StuffBelief {
   std::vector<std::shared_ptr<StuffCluster const>> recent_clusters;
   Evidence evidence = Evidence::kSeen;
   std::optional<LabelCode> label;
+
+  // The rest is of the rule that knows what it could not see; with the thesis' rule it stays empty.
+  std::shared_ptr<StuffModel const> model;
+  /// The most points of the model that ever agreed with one frame.
+  double most_agreeing = 0.0;
+  Verdict verdict = Verdict::kSeen;
+  /// When and from where it was last seen, or seen through.
+  Look last_look;
+  std::vector<OneWith> one_with;
 
   [[nodiscard]] StuffCluster const& latest() const { return *recent_clusters.back(); }
 };

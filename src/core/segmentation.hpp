@@ -16,6 +16,7 @@
 #include "core/object_model.hpp"
 #include "core/plane.hpp"
 #include "core/segments.hpp"
+#include "core/sight.hpp"
 
 namespace credo {
 
@@ -79,6 +80,9 @@ struct StuffCluster {
   Eigen::AlignedBox3f bounds_world;
   /// Thinned to the spacing of the clustering's config, never empty.
   PointList points_world;
+  /// The cluster that it lies on so closely that depth alone could take it for a part of that, such
+  /// as a magazine on a table; none for most.
+  std::optional<LabelCode> lies_on;
 };
 
 /// What one frame shows: a label for every pixel, and what each label stands for. The stages pass
@@ -103,6 +107,8 @@ struct Segmentation {
   /// Whether a detector was asked: if not, that an object was not found says nothing.
   bool objects_looked_for = false;
   std::vector<StuffCluster> stuff;
+  /// The same in blocks, for the belief; empty where its rule does not ask.
+  Sight sight;
 };
 using SegmentationPtr = std::shared_ptr<Segmentation const>;
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/sight.hpp"
 #include "stages/segments/settling.hpp"
 #include "stages/segments/things.hpp"
 
@@ -83,7 +84,11 @@ Stages make_stages(PipelineConfig const& config, WorldLevel const& level, Prior 
     return extract_planes(frame, normals, std::move(so_far), config.planes);
   };
   stages.clustering = [config](Frame const& frame, NormalMap const& normals, Segmentation so_far) {
-    return cluster_stuff(frame, normals, std::move(so_far), config.clustering);
+    so_far = cluster_stuff(frame, normals, std::move(so_far), config.clustering);
+    if (config.fusion.stuff.visibility) {
+      so_far.sight = sight_of(frame.cloud_camera.z, so_far.labels, frame.intrinsics);
+    }
+    return so_far;
   };
   stages.fusion = [config](BeliefState belief, Segmentation const& segmentation) {
     return fuse(std::move(belief), segmentation, config.fusion);

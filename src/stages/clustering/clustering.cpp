@@ -103,6 +103,25 @@ std::vector<LabelCode> labels_of(std::vector<std::size_t> const& sizes, std::siz
   return labels;
 }
 
+// What of the clusters lies on another, as the segments have it.
+void tell_what_lies_on_what(Runs const& runs, std::vector<LabelCode> const& label_of_component,
+                            Segments const& segments, std::vector<StuffCluster>& stuff) {
+  if (segments.lies_on.empty()) {
+    return;
+  }
+  std::vector<LabelCode> label_of(segments.pixel_counts.size() + 1, kUnassigned);
+  for (ComponentRun const& run : runs) {
+    label_of[static_cast<std::size_t>(segments.labels[{run.begin, run.v}])] =
+        label_of_component[static_cast<std::size_t>(run.component)];
+  }
+  for (std::size_t segment = 1; segment < label_of.size(); ++segment) {
+    LabelCode const base = label_of[static_cast<std::size_t>(segments.lies_on[segment - 1])];
+    if (is_stuff(label_of[segment]) && is_stuff(base)) {
+      stuff[label_of[segment] - std::size_t{kFirstStuff}].lies_on = base;
+    }
+  }
+}
+
 }  // namespace
 
 FieldList fields(ClusteringConfig& config) {
@@ -148,6 +167,7 @@ Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals, Segment
       has_segments ? firm_pixels(frame.cloud_camera.z, labels) : Grid<std::uint8_t>();
   segmentation.stuff = stuff_clusters(frame.cloud_camera, labels, firm, segmentation.T_world_camera,
                                       static_cast<float>(config.point_spacing_m));
+  tell_what_lies_on_what(runs, label, segmentation.segments, segmentation.stuff);
   segmentation.segments = {};
   return segmentation;
 }

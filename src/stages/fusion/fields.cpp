@@ -90,6 +90,14 @@ FieldList fields(WallFusionConfig& config) {
 
 FieldList fields(StuffFusionConfig& config) {
   return {
+      {"visibility",
+       &config.visibility,
+       {},
+       "",
+       "what is hidden or out of view keeps its probability, what is seen through loses it; false: "
+       "as the thesis has it"},
+      {"new_probability", &config.new_probability, kProbability, "",
+       "with visibility: that stuff seen for the first time is there"},
       {"box_margin_m",
        &config.box_margin_m,
        {0, 10},

@@ -6,6 +6,7 @@
 #include "stages/fusion/floor.hpp"
 #include "stages/fusion/objects.hpp"
 #include "stages/fusion/stuff.hpp"
+#include "stages/fusion/stuff_items.hpp"
 #include "stages/fusion/walls.hpp"
 
 namespace credo {
@@ -23,8 +24,10 @@ BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConf
       fused_walls({std::move(belief.walls), belief.next_wall_id}, segmentation.walls, config.walls);
   belief.walls = std::move(walls.walls);
   belief.next_wall_id = walls.next_id;
-  FusedStuff stuff = fused_stuff({std::move(belief.stuff), belief.next_stuff_id},
-                                 segmentation.stuff, change, config);
+  FusedStuff stuff{std::move(belief.stuff), belief.next_stuff_id};
+  stuff = config.stuff.visibility
+              ? fused_items(std::move(stuff), segmentation, config)
+              : fused_stuff(std::move(stuff), segmentation.stuff, change, config);
   belief.stuff = std::move(stuff.stuff);
   belief.next_stuff_id = stuff.next_id;
   return belief;

@@ -75,6 +75,11 @@ enum class StuffScore : std::uint8_t {
 /// When a cluster is a thing that the belief holds, and what is kept of it (thesis 4.3, algorithm
 /// 6).
 struct StuffFusionConfig {
+  /// The rule that knows what it could not see (stuff_items.hpp); else the thesis', which has all
+  /// that follows.
+  bool visibility = true;
+  /// That what is seen for the first time is there; of the rule that knows what it could not see.
+  double new_probability = 0.7;
   /// Bounding boxes this far apart still count as overlapping.
   double box_margin_m = 0.02;
   /// ICP sees at most as many points of a cluster, 8 or more, thinned from `point_spacing_m`

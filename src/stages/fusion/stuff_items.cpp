@@ -1,0 +1,416 @@
+#include "stages/fusion/stuff_items.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "stages/fusion/existence.hpp"
+#include "stages/fusion/stuff_looks.hpp"
+#include "stages/fusion/stuff_model.hpp"
+#include "stages/fusion/stuff_moves.hpp"
+
+namespace credo {
+namespace {
+
+// What a cluster must have, in blocks, to be a thing.
+constexpr int kLeastBlocks = 12;
+// A cluster is a thing's where so much of what it should show agrees, and the two share so much of
+// either.
+constexpr double kLeastAgreement = 0.25;
+constexpr double kLeastShareOfCluster = 0.3;
+constexpr double kLeastShareOfThing = 0.4;
+// Nothing is learnt from fewer points, or from a smaller part of what was ever seen at once.
+constexpr int kLeastPoints = 8;
+constexpr double kUsuallySeen = 0.8;
+constexpr double kLeastVisible = 0.1;
+// Part of these points that is seen through.
+constexpr double kMostThroughSeen = 0.35;
+constexpr double kLeastThroughGone = 0.6;
+constexpr double kLeastThroughSurelyGone = 0.85;
+constexpr double kLeastVisibleSurelyGone = 0.3;
+// Carving.
+constexpr float kLeastMissed = 0.1F;
+constexpr float kMissedBeforeItself = 0.2F;
+constexpr float kMissedLessAgreeing = 0.5F;
+// Merging.
+constexpr double kShareInAnother = 0.6;
+constexpr double kEnoughToMerge = 3.0;
+// A cluster that things explain by so much is none of its own.
+constexpr double kExplained = 0.7;
+
+/// A look at a thing that says something about it.
+struct Finding {
+  Verdict verdict = Verdict::kSeen;
+  /// Of what is usually seen of it, the part that is seen now, or seen through.
+  double visible = 0.0;
+};
+
+std::optional<Finding> finding_of(StuffLook const& look, double most_agreeing, bool matched) {
+  int const agrees = look.count(PointState::kAgrees);
+  int const told = agrees + look.count(PointState::kSeenThrough);
+  double const visible = told / (kUsuallySeen * std::max(1.0, most_agreeing));
+  if (told < kLeastPoints || visible <= kLeastVisible) {
+    return std::nullopt;
+  }
+  double const through = static_cast<double>(told - agrees) / told;
+  if (matched || through < kMostThroughSeen) {
+    return Finding{Verdict::kSeen, visible};
+  }
+  if (through > kLeastThroughSurelyGone && visible > kLeastVisibleSurelyGone) {
+    return Finding{Verdict::kSurelyGone, visible};
+  }
+  if (through > kLeastThroughGone) {
+    return Finding{Verdict::kGone, visible};
+  }
+  return std::nullopt;
+}
+
+/// P(look | there) and P(look | not there).
+std::pair<double, double> likelihoods(Finding const& finding) {
+  double const s = std::min(1.0, finding.visible / 0.5);
+  double const sure = 0.5 + 0.45 * s;
+  switch (finding.verdict) {
+    case Verdict::kSeen:
+      return {sure, 1.0 - sure};
+    case Verdict::kGone:
+      return {1.0 - sure, sure};
+    case Verdict::kSurelyGone:
+      return {0.95 * std::exp(-5.25 * s), 0.95};
+  }
+  return {1.0, 1.0};
+}
+
+void believe(StuffBelief& item, Finding const& finding, Look const& now, double news,
+             ExistenceConfig const& config) {
+  auto const [if_there, if_not] = likelihoods(finding);
+  bool const changed = (finding.verdict == Verdict::kSeen) != (item.verdict == Verdict::kSeen);
+  double const k = changed ? 1.0 : news;
+  double const moved = item.log_odds + std::log((1.0 - k + k * if_there) / (1.0 - k + k * if_not));
+  item.log_odds = std::clamp(moved, -config.max_log_odds, config.max_log_odds);
+  item.verdict = finding.verdict;
+  item.last_look = now;
+}
+
+Evidence evidence_of(StuffLook const& look, std::optional<Finding> const& finding) {
+  if (finding) {
+    return finding->verdict == Verdict::kSeen ? Evidence::kSeen : Evidence::kSeenThrough;
+  }
+  int const hidden = look.count(PointState::kOccluded);
+  int const out_of_view = look.count(PointState::kOutOfView);
+  int const rest = static_cast<int>(look.points.size()) - hidden - out_of_view;
+  return out_of_view >= std::max(hidden, rest) ? Evidence::kOutOfView
+         : hidden >= rest                      ? Evidence::kOccluded
+                                               : Evidence::kNotSeen;
+}
+
+class Fusing {
+public:
+  Fusing(FusedStuff known, Segmentation const& segmentation, FusionConfig const& config)
+      : known_(std::move(known)),
+        segmentation_(segmentation),
+        config_(config),
+        now_{segmentation.stamp_ns, segmentation.T_world_camera.translation()},
+        looks_(segmentation.sight, segmentation.T_world_camera, known_.stuff),
+        clusters_(clusters_of(segmentation)),
+        given_to_(clusters_.size(), -1),
+        news_(known_.stuff.size(), 0.0) {}
+
+  FusedStuff run() && {
+    associate();
+    for (std::size_t i = 0; i < known_.stuff.size(); ++i) {
+      update(i);
+    }
+    move();
+    merge();
+    std::erase_if(known_.stuff, [&](StuffBelief const& item) {
+      return item.model == nullptr ||
+             probability_of(item.log_odds) < config_.existence.min_probability;
+    });
+    add_new();
+    return std::move(known_);
+  }
+
+private:
+  [[nodiscard]] StuffLook const& look(std::size_t item) const { return looks_.looks()[item]; }
+  [[nodiscard]] SeenCluster const& cluster(LabelCode label) const {
+    return clusters_[label - std::size_t{kFirstStuff}];
+  }
+  [[nodiscard]] std::int32_t& given_to(LabelCode label) {
+    return given_to_[label - std::size_t{kFirstStuff}];
+  }
+
+  void associate() {
+    std::vector<double> best(clusters_.size(), 0.0);
+    // First what lies on nothing: a thing that lies on another is not that one.
+    for (bool const lying : {false, true}) {
+      for (std::size_t i = 0; i < known_.stuff.size(); ++i) {
+        for (ClusterShare const& share : look(i).shares) {
+          if (!is_stuff(share.label) || (cluster(share.label).lies_on >= 0) != lying ||
+              is_base_of(i, share.label)) {
+            continue;
+          }
+          std::optional<double> const overlap = overlap_of(i, share);
+          double& most = best[share.label - std::size_t{kFirstStuff}];
+          if (overlap && *overlap > most) {
+            most = *overlap;
+            given_to(share.label) = static_cast<std::int32_t>(i);
+          }
+        }
+      }
+    }
+  }
+
+  /// Whether a cluster lies on this thing.
+  [[nodiscard]] bool is_base_of(std::size_t item, LabelCode label) const {
+    std::int32_t const base = cluster(label).lies_on;
+    return base >= 0 &&
+           given_to_[static_cast<std::size_t>(base)] == static_cast<std::int32_t>(item);
+  }
+
+  /// What a thing and a cluster have in common, of what both have; none where that is too little.
+  [[nodiscard]] std::optional<double> overlap_of(std::size_t item,
+                                                 ClusterShare const& share) const {
+    auto const area = static_cast<double>(cluster(share.label).blocks.size());
+    double const blocks = share.blocks;
+    bool const enough =
+        blocks > kLeastShareOfCluster * area || blocks > kLeastShareOfThing * look(item).blocks;
+    if (share.agreement() < kLeastAgreement || area < kLeastBlocks || !enough) {
+      return std::nullopt;
+    }
+    return blocks / (area + look(item).blocks - blocks);
+  }
+
+  void update(std::size_t i) {
+    StuffBelief& item = known_.stuff[i];
+    StuffLook const& seen = look(i);
+    std::vector<LabelCode> labels;
+    int most = 0;
+    item.label.reset();
+    for (ClusterShare const& share : seen.shares) {
+      if (is_stuff(share.label) && given_to(share.label) == static_cast<std::int32_t>(i)) {
+        labels.push_back(share.label);
+        if (share.blocks > most) {
+          most = share.blocks;
+          item.label = share.label;
+        }
+      }
+    }
+    bool const matched = !labels.empty();
+    std::optional<Finding> const finding = finding_of(seen, item.most_agreeing, matched);
+    item.evidence = evidence_of(seen, finding);
+    Eigen::Vector3d const middle = item.latest().centroid_world.cast<double>();
+    news_[i] = novelty(view_change(item.last_look, now_), middle, config_.existence);
+    if (finding) {
+      believe(item, *finding, now_, news_[i], config_.existence);
+    }
+    if (matched) {
+      ++item.history_count;
+      learn(item, i, labels);
+    }
+    item.most_agreeing =
+        std::max(item.most_agreeing, static_cast<double>(seen.count(PointState::kAgrees)));
+  }
+
+  /// The model after a look at which it was found in those clusters.
+  void learn(StuffBelief& item, std::size_t i, std::vector<LabelCode> const& labels) {
+    StuffModel model = *item.model;
+    auto const missed = std::max(static_cast<float>(news_[i]), kLeastMissed);
+    for (std::size_t p = 0; p < model.points.size(); ++p) {
+      PointLook const& point = look(i).points[p];
+      float& count = model.points[p].missed;
+      if (point.state == PointState::kAgrees) {
+        count = std::max(0.0F, count - kMissedLessAgreeing);
+      } else if (point.state == PointState::kSeenThrough) {
+        LabelCode const behind = segmentation_.sight.labels[static_cast<std::size_t>(point.block)];
+        bool const itself = std::ranges::find(labels, behind) != labels.end();
+        count += itself ? kMissedBeforeItself * missed : missed;
+      }
+    }
+    model = carved_model(std::move(model));
+    std::size_t pixels = 0;
+    std::vector<Eigen::Vector3f> points_world;
+    for (LabelCode const label : labels) {
+      SeenCluster const& seen = cluster(label);
+      for (std::size_t k = 0; k < seen.blocks.size(); ++k) {
+        std::int32_t const owner = looks_.owners()[seen.blocks[k]];
+        bool const anothers = owner >= 0 && owner != static_cast<std::int32_t>(i) &&
+                              known_.stuff[static_cast<std::size_t>(owner)].log_odds > 0.0;
+        if (!anothers) {
+          points_world.push_back(seen.points_world[k]);
+        }
+      }
+      pixels += seen.pixel_count;
+    }
+    set_model(item, fused_model(model, points_world), pixels);
+  }
+
+  void set_model(StuffBelief& item, StuffModel model, std::size_t pixels) {
+    item.recent_clusters = {std::make_shared<StuffCluster const>(
+        cluster_of(model, item.label.value_or(kFirstStuff), pixels))};
+    item.model = std::make_shared<StuffModel const>(std::move(model));
+  }
+
+  /// Things that have surely gone from where they were, and stand elsewhere.
+  void move() {
+    std::vector<std::size_t> free;
+    for (std::size_t c = 0; c < clusters_.size(); ++c) {
+      if (is_unexplained(c)) {
+        free.push_back(c);
+      }
+    }
+    for (Move const& found : moves(known_.stuff, clusters_, free)) {
+      StuffBelief& item = known_.stuff[found.item];
+      SeenCluster const& seen = clusters_[found.cluster];
+      item.label = static_cast<LabelCode>(kFirstStuff + found.cluster);
+      item.evidence = Evidence::kSeen;
+      item.verdict = Verdict::kSeen;
+      item.last_look = now_;
+      item.log_odds = std::max(item.log_odds, log_odds_of(config_.stuff.new_probability));
+      ++item.history_count;
+      begin_model(item, seen);
+      given_to_[found.cluster] = static_cast<std::int32_t>(found.item);
+    }
+  }
+
+  void begin_model(StuffBelief& item, SeenCluster const& seen) {
+    StuffModel model = new_model(seen.points_world, seen.area_m2);
+    item.most_agreeing = static_cast<double>(model.points.size());
+    set_model(item, std::move(model), seen.pixel_count);
+  }
+
+  /// Large enough for a thing, nobody's, and not what things explain already.
+  [[nodiscard]] bool is_unexplained(std::size_t c) const {
+    SeenCluster const& seen = clusters_[c];
+    if (given_to_[c] >= 0 || seen.blocks.size() < static_cast<std::size_t>(kLeastBlocks)) {
+      return false;
+    }
+    auto const label = static_cast<LabelCode>(kFirstStuff + c);
+    std::size_t explained = 0;
+    for (std::size_t const block : seen.blocks) {
+      std::int32_t const owner = looks_.owners()[block];
+      if (owner < 0) {
+        continue;
+      }
+      if (is_base_of(static_cast<std::size_t>(owner), label)) {
+        continue;
+      }
+      auto const& shares = look(static_cast<std::size_t>(owner)).shares;
+      auto const share = std::ranges::find(shares, label, &ClusterShare::label);
+      explained += share != shares.end() && share->agreement() >= kLeastAgreement ? 1U : 0U;
+    }
+    return static_cast<double>(explained) <= kExplained * static_cast<double>(seen.blocks.size());
+  }
+
+  /// What shows again and again in another thing's clusters is one with it.
+  void merge() {
+    for (std::size_t j = 0; j < look_count(); ++j) {
+      StuffBelief& item = known_.stuff[j];
+      if (item.model == nullptr) {
+        continue;
+      }
+      bool matched = item.label.has_value();
+      std::optional<std::size_t> const host = matched ? std::nullopt : host_of(j);
+      for (OneWith& other : item.one_with) {
+        other.evidence -= matched ? news_[j] : 0.0;
+      }
+      if (host) {
+        std::uint32_t const id = known_.stuff[*host].id;
+        auto found = std::ranges::find(item.one_with, id, &OneWith::id);
+        if (found == item.one_with.end()) {
+          found = item.one_with.insert(found, {id, 0.0});
+        }
+        found->evidence += news_[j];
+        if (found->evidence > kEnoughToMerge) {
+          join(*host, j);
+        }
+      }
+      std::erase_if(item.one_with, [](OneWith const& other) { return other.evidence <= 0.0; });
+    }
+  }
+
+  [[nodiscard]] std::size_t look_count() const { return looks_.looks().size(); }
+
+  /// The thing whose clusters show most of this one.
+  [[nodiscard]] std::optional<std::size_t> host_of(std::size_t j) {
+    std::vector<std::pair<std::size_t, int>> blocks_in;
+    for (ClusterShare const& share : look(j).shares) {
+      if (!is_stuff(share.label) || given_to(share.label) < 0) {
+        continue;
+      }
+      auto const host = static_cast<std::size_t>(given_to(share.label));
+      auto const found = std::ranges::find(blocks_in, host, &std::pair<std::size_t, int>::first);
+      if (found == blocks_in.end()) {
+        blocks_in.emplace_back(host, share.blocks);
+      } else {
+        found->second += share.blocks;
+      }
+    }
+    for (auto const& [host, blocks] : blocks_in) {
+      if (host != j && look(j).blocks >= kLeastPoints &&
+          blocks > kShareInAnother * look(j).blocks && known_.stuff[host].model != nullptr) {
+        return host;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// The one that was known first keeps its name.
+  void join(std::size_t a, std::size_t b) {
+    StuffBelief& first = known_.stuff[std::min(a, b)];
+    StuffBelief& second = known_.stuff[std::max(a, b)];
+    std::vector<Eigen::Vector3f> points_world;
+    for (SurfacePoint const& point : second.model->points) {
+      points_world.push_back(point.p_world);
+    }
+    if (!first.label) {
+      first.label = second.label;
+      first.evidence = second.evidence;
+    }
+    first.log_odds = std::max(first.log_odds, second.log_odds);
+    first.most_agreeing = std::max(first.most_agreeing, second.most_agreeing);
+    set_model(first, fused_model(*first.model, points_world),
+              std::max(first.latest().pixel_count, second.latest().pixel_count));
+    second.model = nullptr;
+    second.one_with.clear();
+  }
+
+  void add_new() {
+    for (std::size_t c = 0; c < clusters_.size(); ++c) {
+      if (!is_unexplained(c)) {
+        continue;
+      }
+      StuffBelief& item = known_.stuff.emplace_back();
+      item.id = known_.next_id++;
+      item.log_odds = log_odds_of(config_.stuff.new_probability);
+      item.label = static_cast<LabelCode>(kFirstStuff + c);
+      item.history_count = 1;
+      item.last_look = now_;
+      begin_model(item, clusters_[c]);
+    }
+  }
+
+  FusedStuff known_;
+  Segmentation const& segmentation_;
+  FusionConfig const& config_;
+  Look now_;
+  StuffLooks looks_;
+  /// By label, from kFirstStuff on.
+  std::vector<SeenCluster> clusters_;
+  /// The thing that each cluster is of, by its place in the belief; -1 for none.
+  std::vector<std::int32_t> given_to_;
+  /// How much of the frame is news about each thing.
+  std::vector<double> news_;
+};
+
+}  // namespace
+
+FusedStuff fused_items(FusedStuff known, Segmentation const& segmentation,
+                       FusionConfig const& config) {
+  return Fusing(std::move(known), segmentation, config).run();
+}
+
+}  // namespace credo

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/belief.hpp"
+#include "core/se3.hpp"
+#include "core/sight.hpp"
+
+namespace credo {
+
+/// What a frame says of one point.
+enum class PointState : std::uint8_t {
+  kOutOfView,
+  kUnmeasured,
+  /// Something is measured where it is believed to be.
+  kAgrees,
+  /// Something nearer hides it; or is so near beside it that it might.
+  kOccluded,
+  kSeenThrough,
+};
+
+struct PointLook {
+  PointState state = PointState::kOutOfView;
+  /// Block that it lies on; -1 out of view.
+  std::int32_t block = -1;
+};
+
+/// What of a thing falls on one cluster of the frame.
+struct ClusterShare {
+  LabelCode label = 0;
+  /// Points that agree there, and that what is there hides.
+  int agreeing = 0;
+  int hidden = 0;
+  /// Blocks of it that agree with the thing.
+  int blocks = 0;
+
+  [[nodiscard]] double agreement() const {
+    return agreeing == 0 ? 0.0 : static_cast<double>(agreeing) / (agreeing + hidden);
+  }
+};
+
+/// What a frame says of one thing.
+struct StuffLook {
+  std::vector<PointLook> points;
+  /// By PointState.
+  std::array<int, 5> counts{};
+  /// Blocks that agree, each once.
+  int blocks = 0;
+  /// Clusters that it shares blocks or hidden points with, by ascending label.
+  std::vector<ClusterShare> shares;
+
+  [[nodiscard]] int count(PointState state) const {
+    return counts[static_cast<std::size_t>(state)];
+  }
+};
+
+/// A frame, seen from which things are looked at.
+class StuffLooks {
+public:
+  StuffLooks(Sight const& sight, Se3 const& T_world_camera, std::vector<StuffBelief> const& stuff);
+
+  /// In the order of the belief.
+  [[nodiscard]] std::vector<StuffLook> const& looks() const { return looks_; }
+  /// Of each block the thing that fits it best, by its place in the belief; -1 where none does.
+  [[nodiscard]] Grid<std::int32_t> const& owners() const { return owners_; }
+
+private:
+  [[nodiscard]] StuffLook look_at(StuffModel const& model, std::int32_t item);
+  void mark(Pixel block, float depth_m, int radius, std::int32_t item, StuffLook& look);
+
+  Sight const& sight_;
+  Eigen::Matrix3f R_camera_world_;
+  Eigen::Vector3f t_camera_world_;
+  std::vector<StuffLook> looks_;
+  Grid<std::int32_t> owners_;
+  Grid<float> owner_distance_m_;
+  /// The last thing that marked a block.
+  Grid<std::int32_t> marked_by_;
+  /// Of the thing that is looked at; places in its shares by label, -1 where there is none.
+  std::vector<std::int32_t> share_of_label_;
+};
+
+/// How far a measured depth may lie from a point that it agrees with.
+[[nodiscard]] constexpr float agreement_m(float depth_m) {
+  return 0.01F + 0.01F * depth_m;
+}
+
+}  // namespace credo

@@ -1,0 +1,151 @@
+#include "stages/fusion/stuff_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace credo {
+namespace {
+
+constexpr double kCellsAcross = 25.0;
+constexpr double kFinest_m = 0.008;
+constexpr double kCoarsest_m = 0.040;
+constexpr std::size_t kMostPoints = 4000;
+constexpr std::size_t kFewestPoints = 20;
+/// A mean over so many looks, at most, follows what changes.
+constexpr float kMostWeight = 12.0F;
+constexpr float kMissedTooOften = 2.0F;
+
+/// 21 bits an axis.
+std::uint64_t cell_of(Eigen::Vector3f const& point, float spacing_m) {
+  constexpr float kLast = (1 << 20) - 1;
+  auto const along = [&](float coordinate_m) {
+    float const cell = std::clamp(std::floor(coordinate_m / spacing_m), -kLast - 1.0F, kLast);
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(cell) + (1 << 20));
+  };
+  return (along(point.x()) << 42U) | (along(point.y()) << 21U) | along(point.z());
+}
+
+struct Placed {
+  std::uint64_t cell;
+  SurfacePoint point;
+};
+
+/// Points of one cell become their mean, one point that weighs as much as the heaviest of them.
+StuffModel thinned(std::vector<Placed> placed, float spacing_m) {
+  std::ranges::stable_sort(placed, {}, &Placed::cell);
+  StuffModel model;
+  model.spacing_m = spacing_m;
+  for (std::size_t i = 0; i < placed.size();) {
+    std::size_t const begin = i;
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    SurfacePoint mean;
+    mean.missed = placed[i].point.missed;
+    for (; i < placed.size() && placed[i].cell == placed[begin].cell; ++i) {
+      sum += placed[i].point.p_world;
+      mean.weight = std::max(mean.weight, placed[i].point.weight);
+      mean.missed = std::min(mean.missed, placed[i].point.missed);
+    }
+    mean.p_world = sum / static_cast<float>(i - begin);
+    model.cells.push_back(placed[begin].cell);
+    model.points.push_back(mean);
+  }
+  return model;
+}
+
+StuffModel of_points(std::span<Eigen::Vector3f const> points_world, float spacing_m) {
+  std::vector<Placed> placed;
+  placed.reserve(points_world.size());
+  for (Eigen::Vector3f const& point : points_world) {
+    placed.push_back({cell_of(point, spacing_m), {.p_world = point}});
+  }
+  return thinned(std::move(placed), spacing_m);
+}
+
+StuffModel within_limit(StuffModel model) {
+  while (model.points.size() > kMostPoints) {
+    float const spacing_m = model.spacing_m * 1.5F;
+    std::vector<Placed> placed;
+    placed.reserve(model.points.size());
+    for (SurfacePoint const& point : model.points) {
+      placed.push_back({cell_of(point.p_world, spacing_m), point});
+    }
+    model = thinned(std::move(placed), spacing_m);
+  }
+  return model;
+}
+
+SurfacePoint fused(SurfacePoint point, SurfacePoint const& seen) {
+  point.weight = std::min(point.weight + 1.0F, kMostWeight);
+  point.p_world += (seen.p_world - point.p_world) / point.weight;
+  return point;
+}
+
+}  // namespace
+
+StuffModel new_model(std::span<Eigen::Vector3f const> points_world, double area_m2) {
+  double const spacing_m =
+      std::clamp(std::sqrt(std::max(area_m2, 0.0)) / kCellsAcross, kFinest_m, kCoarsest_m);
+  return within_limit(of_points(points_world, static_cast<float>(spacing_m)));
+}
+
+StuffModel fused_model(StuffModel const& model, std::span<Eigen::Vector3f const> points_world) {
+  StuffModel const seen = of_points(points_world, model.spacing_m);
+  StuffModel both;
+  both.spacing_m = model.spacing_m;
+  both.cells.reserve(model.cells.size() + seen.cells.size());
+  both.points.reserve(model.cells.size() + seen.cells.size());
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < model.cells.size() || j < seen.cells.size()) {
+    bool const known =
+        i < model.cells.size() && (j == seen.cells.size() || model.cells[i] <= seen.cells[j]);
+    bool const again =
+        j < seen.cells.size() && (i == model.cells.size() || seen.cells[j] <= model.cells[i]);
+    both.cells.push_back(known ? model.cells[i] : seen.cells[j]);
+    both.points.push_back(known && again ? fused(model.points[i], seen.points[j])
+                          : known        ? model.points[i]
+                                         : seen.points[j]);
+    i += known ? 1 : 0;
+    j += again ? 1 : 0;
+  }
+  return within_limit(std::move(both));
+}
+
+StuffModel carved_model(StuffModel model) {
+  std::vector<std::uint32_t> order(model.points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::erase_if(order, [&](std::uint32_t i) { return model.points[i].missed >= kMissedTooOften; });
+  if (order.size() == model.points.size() || order.size() < kFewestPoints) {
+    return model;
+  }
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    model.cells[k] = model.cells[order[k]];
+    model.points[k] = model.points[order[k]];
+  }
+  model.cells.resize(order.size());
+  model.points.resize(order.size());
+  return model;
+}
+
+StuffCluster cluster_of(StuffModel const& model, LabelCode label, std::size_t pixel_count) {
+  StuffCluster cluster;
+  cluster.label = label;
+  cluster.pixel_count = pixel_count;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (SurfacePoint const& point : model.points) {
+    cluster.points_world.push_back(point.p_world);
+    cluster.bounds_world.extend(point.p_world);
+    sum += point.p_world.cast<double>();
+  }
+  if (!model.points.empty()) {
+    cluster.centroid_world = (sum / static_cast<double>(model.points.size()))
+                                 .cast<float>()
+                                 .cwiseMax(cluster.bounds_world.min())
+                                 .cwiseMin(cluster.bounds_world.max());
+  }
+  return cluster;
+}
+
+}  // namespace credo

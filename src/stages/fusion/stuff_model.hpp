@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/belief.hpp"
+#include "core/segmentation.hpp"
+
+namespace credo {
+
+/// A thing as it is first seen: `area_m2` of it, facing the camera. Its points' spacing is a 25th
+/// of its size, 8 to 40 mm.
+[[nodiscard]] StuffModel new_model(std::span<Eigen::Vector3f const> points_world, double area_m2);
+
+/// The model after one more look at these points: each moves the running mean of its cell, or is
+/// the first of it. Beyond 4000 points the spacing grows.
+[[nodiscard]] StuffModel fused_model(StuffModel const& model,
+                                     std::span<Eigen::Vector3f const> points_world);
+
+/// Without the points that were seen through too often; at least 20 stay, or as many as there are.
+[[nodiscard]] StuffModel carved_model(StuffModel model);
+
+/// For whoever reads a belief: its points, their centroid and bounds.
+[[nodiscard]] StuffCluster cluster_of(StuffModel const& model, LabelCode label,
+                                      std::size_t pixel_count);
+
+}  // namespace credo

@@ -1,0 +1,147 @@
+#include "stages/fusion/stuff_moves.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "geometry/icp.hpp"
+
+namespace credo {
+namespace {
+
+constexpr double kFarthest_m = 0.5;
+constexpr double kMostSizeRatio = 1.5;
+constexpr std::size_t kMostIcpPoints = 200;
+constexpr int kIcpSteps = 5;
+// The RMS after ICP: of the sensor's noise, and of the thing's size.
+constexpr double kLeastRms_m = 0.012;
+constexpr double kShareOfSize = 0.2;
+
+std::vector<Eigen::Vector3f> centred(std::span<Eigen::Vector3f const> points,
+                                     Eigen::Vector3f const& centre) {
+  std::size_t const step = (points.size() + kMostIcpPoints - 1) / kMostIcpPoints;
+  std::vector<Eigen::Vector3f> some;
+  for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(step, 1)) {
+    some.push_back(points[i] - centre);
+  }
+  return some;
+}
+
+Eigen::Vector3f mean_of(std::span<Eigen::Vector3f const> points) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (Eigen::Vector3f const& point : points) {
+    sum += point;
+  }
+  return sum / static_cast<float>(std::max<std::size_t>(points.size(), 1));
+}
+
+/// Standard deviations along the points' own axes, ascending.
+Eigen::Vector3f extents_of(std::span<Eigen::Vector3f const> points) {
+  Eigen::Vector3f const mean = mean_of(points);
+  Eigen::Matrix3f spread = Eigen::Matrix3f::Zero();
+  for (Eigen::Vector3f const& point : points) {
+    spread += (point - mean) * (point - mean).transpose();
+  }
+  spread /= static_cast<float>(std::max<std::size_t>(points.size(), 1));
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f>(spread, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .cwiseMax(0.0F)
+      .cwiseSqrt();
+}
+
+/// RMS distance of the cluster from the thing's shape, once laid on it; none where they differ.
+std::optional<double> fit_of(StuffBelief const& item, SeenCluster const& cluster) {
+  std::vector<Eigen::Vector3f> const& known = item.latest().points_world;
+  Eigen::Vector3f const from = mean_of(known);
+  Eigen::Vector3f const to = mean_of(cluster.points_world);
+  if ((from - to).norm() > static_cast<float>(kFarthest_m)) {
+    return std::nullopt;
+  }
+  Eigen::Vector3f const a = extents_of(known);
+  Eigen::Vector3f const b = extents_of(cluster.points_world);
+  for (Eigen::Index i = 1; i < 3; ++i) {
+    auto const [less, more] = std::minmax(a[i], b[i]);
+    if (static_cast<double>(more) > kMostSizeRatio * static_cast<double>(less)) {
+      return std::nullopt;
+    }
+  }
+  IcpConfig config;
+  config.max_iterations = kIcpSteps;
+  config.max_rms_m = std::min(kLeastRms_m, kShareOfSize * static_cast<double>(a.z()));
+  auto const fit = align_icp(centred(cluster.points_world, to), centred(known, from), config);
+  return fit ? std::optional(fit->rms_m) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<SeenCluster> clusters_of(Segmentation const& segmentation) {
+  Sight const& sight = segmentation.sight;
+  std::vector<SeenCluster> clusters(segmentation.stuff.size());
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    StuffCluster const& cluster = segmentation.stuff[c];
+    clusters[c].pixel_count = cluster.pixel_count;
+    if (cluster.lies_on) {
+      clusters[c].lies_on = static_cast<std::int32_t>(*cluster.lies_on) - kFirstStuff;
+    }
+  }
+  Eigen::Matrix3f const R = segmentation.T_world_camera.rotation().toRotationMatrix().cast<float>();
+  Eigen::Vector3f const t = segmentation.T_world_camera.translation().cast<float>();
+  auto const fx = static_cast<float>(sight.intrinsics.fx_px);
+  auto const fy = static_cast<float>(sight.intrinsics.fy_px);
+  auto const cx = static_cast<float>(sight.intrinsics.cx_px);
+  auto const cy = static_cast<float>(sight.intrinsics.cy_px);
+  double const block_area =
+      sight.block_px * sight.block_px / (sight.intrinsics.fx_px * sight.intrinsics.fy_px);
+  for (int v = 0; v < sight.labels.height(); ++v) {
+    for (int u = 0; u < sight.labels.width(); ++u) {
+      LabelCode const label = sight.labels[{u, v}];
+      float const z_m = sight.depth_m[{u, v}];
+      if (!is_stuff(label) || !(z_m > 0.0F)) {
+        continue;
+      }
+      SeenCluster& cluster = clusters.at(label - std::size_t{kFirstStuff});
+      Pixel const pixel = sight.middle_of({u, v});
+      Eigen::Vector3f const p_camera((static_cast<float>(pixel.u) - cx) * z_m / fx,
+                                     (static_cast<float>(pixel.v) - cy) * z_m / fy, z_m);
+      cluster.blocks.push_back(sight.labels.index({u, v}));
+      cluster.points_world.push_back(R * p_camera + t);
+      cluster.area_m2 += static_cast<double>(z_m) * static_cast<double>(z_m) * block_area;
+    }
+  }
+  return clusters;
+}
+
+std::vector<Move> moves(std::vector<StuffBelief> const& stuff,
+                        std::vector<SeenCluster> const& clusters,
+                        std::span<std::size_t const> free) {
+  struct Candidate {
+    double rms_m;
+    Move move;
+  };
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < stuff.size(); ++i) {
+    if (stuff[i].verdict != Verdict::kSurelyGone || stuff[i].label) {
+      continue;
+    }
+    for (std::size_t const c : free) {
+      if (std::optional<double> const rms_m = fit_of(stuff[i], clusters[c])) {
+        candidates.push_back({*rms_m, {i, c}});
+      }
+    }
+  }
+  std::ranges::stable_sort(candidates, {}, &Candidate::rms_m);
+  std::vector<Move> found;
+  for (Candidate const& candidate : candidates) {
+    bool const taken = std::ranges::any_of(found, [&](Move const& other) {
+      return other.item == candidate.move.item || other.cluster == candidate.move.cluster;
+    });
+    if (!taken) {
+      found.push_back(candidate.move);
+    }
+  }
+  return found;
+}
+
+}  // namespace credo
