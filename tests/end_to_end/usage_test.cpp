@@ -109,7 +109,8 @@ TEST(CommandLine, HelpNamesEveryOption) {
   std::string const all = test::credo({"--help"}).out;
   EXPECT_THAT(all, HasSubstr("Exit codes: 0 done (also when stopped by Ctrl-C), 2 bad usage, "
                              "config or input, 1 anything else."));
-  for (char const* command : {"\n  run ", "\n  record ", "\n  calibrate ", "\n  doctor ", "\n  config "}) {
+  for (char const* command :
+       {"\n  run ", "\n  record ", "\n  calibrate ", "\n  doctor ", "\n  config "}) {
     EXPECT_THAT(all, HasSubstr(command));
   }
   EXPECT_THAT(test::credo({"--version"}).out, StartsWith("credo 0."));

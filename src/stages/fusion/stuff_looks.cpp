@@ -46,60 +46,75 @@ StuffLooks::StuffLooks(Sight const& sight, Se3 const& T_world_camera,
   }
 }
 
+std::optional<Pixel> StuffLooks::block_of(Eigen::Vector3f const& p_camera) const {
+  if (!(p_camera.z() > 0.0F)) {
+    return std::nullopt;
+  }
+  CameraIntrinsics const& k = sight_.intrinsics;
+  auto const block_px = static_cast<float>(sight_.block_px);
+  auto const along = [&](float coordinate_m, double focal_px, double centre_px) {
+    return std::floor((static_cast<float>(focal_px) * coordinate_m / p_camera.z() +
+                       static_cast<float>(centre_px) + 0.5F) /
+                      block_px);
+  };
+  float const u = along(p_camera.x(), k.fx_px, k.cx_px);
+  float const v = along(p_camera.y(), k.fy_px, k.cy_px);
+  bool const inside = u >= 0.0F && v >= 0.0F && u < static_cast<float>(sight_.depth_m.width()) &&
+                      v < static_cast<float>(sight_.depth_m.height());
+  return inside ? std::optional(Pixel{static_cast<int>(u), static_cast<int>(v)}) : std::nullopt;
+}
+
+ClusterShare& StuffLooks::share_of(LabelCode label, StuffLook& look) {
+  std::int32_t& place = share_of_label_[place_of(label)];
+  if (place < 0) {
+    place = static_cast<std::int32_t>(look.shares.size());
+    look.shares.push_back({.label = is_stuff(label) ? label : LabelCode{0}});
+  }
+  return look.shares[static_cast<std::size_t>(place)];
+}
+
+// A point stands for the surface around it, as far as the next one.
+void StuffLooks::mark_around(Pixel block, float point_m, float spacing_m, std::int32_t item,
+                             StuffLook& look) {
+  auto const radius =
+      static_cast<int>(std::lround(spacing_m * static_cast<float>(sight_.intrinsics.fx_px) /
+                                   (2.0F * static_cast<float>(sight_.block_px) * point_m)));
+  float const tolerance_m = agreement_m(point_m);
+  for (int v = block.v - radius; v <= block.v + radius; ++v) {
+    for (int u = block.u - radius; u <= block.u + radius; ++u) {
+      if (!sight_.depth_m.contains({u, v}) || marked_by_[{u, v}] == item) {
+        continue;
+      }
+      float const distance_m = std::abs(sight_.depth_m[{u, v}] - point_m);
+      if (distance_m >= tolerance_m) {
+        continue;
+      }
+      marked_by_[{u, v}] = item;
+      ++look.blocks;
+      ++share_of(sight_.labels[{u, v}], look).blocks;
+      if (distance_m < owner_distance_m_[{u, v}]) {
+        owner_distance_m_[{u, v}] = distance_m;
+        owners_[{u, v}] = item;
+      }
+    }
+  }
+}
+
 StuffLook StuffLooks::look_at(StuffModel const& model, std::int32_t item) {
   StuffLook look;
   look.points.resize(model.points.size());
-  auto const fx = static_cast<float>(sight_.intrinsics.fx_px);
-  auto const fy = static_cast<float>(sight_.intrinsics.fy_px);
-  auto const cx = static_cast<float>(sight_.intrinsics.cx_px) + 0.5F;
-  auto const cy = static_cast<float>(sight_.intrinsics.cy_px) + 0.5F;
-  auto const block_px = static_cast<float>(sight_.block_px);
-  auto const share_of = [&](LabelCode label) -> ClusterShare& {
-    std::int32_t& place = share_of_label_[place_of(label)];
-    if (place < 0) {
-      place = static_cast<std::int32_t>(look.shares.size());
-      look.shares.push_back({.label = is_stuff(label) ? label : LabelCode{0}});
-    }
-    return look.shares[static_cast<std::size_t>(place)];
-  };
   for (std::size_t i = 0; i < model.points.size(); ++i) {
     PointLook& point = look.points[i];
     Eigen::Vector3f const p_camera = R_camera_world_ * model.points[i].p_world + t_camera_world_;
-    if (p_camera.z() > 0.0F) {
-      float const u = std::floor((fx * p_camera.x() / p_camera.z() + cx) / block_px);
-      float const v = std::floor((fy * p_camera.y() / p_camera.z() + cy) / block_px);
-      if (u >= 0.0F && v >= 0.0F && u < static_cast<float>(sight_.depth_m.width()) &&
-          v < static_cast<float>(sight_.depth_m.height())) {
-        Pixel const block{static_cast<int>(u), static_cast<int>(v)};
-        point.block = static_cast<std::int32_t>(sight_.depth_m.index(block));
-        point.state = state_of(p_camera.z(), sight_.depth_m[block], sight_.nearest_m[block]);
-        ClusterShare& share = share_of(sight_.labels[block]);
-        share.agreeing += point.state == PointState::kAgrees ? 1 : 0;
-        share.hidden +=
-            point.state == PointState::kOccluded && sight_.depth_m[block] < p_camera.z() ? 1 : 0;
-        if (point.state == PointState::kAgrees) {
-          auto const radius = static_cast<int>(
-              std::lround(model.spacing_m * fx / (2.0F * block_px * p_camera.z())));
-          for (int dv = -radius; dv <= radius; ++dv) {
-            for (int du = -radius; du <= radius; ++du) {
-              Pixel const beside{block.u + du, block.v + dv};
-              if (!sight_.depth_m.contains(beside) || marked_by_[beside] == item) {
-                continue;
-              }
-              float const distance_m = std::abs(sight_.depth_m[beside] - p_camera.z());
-              if (distance_m >= agreement_m(p_camera.z())) {
-                continue;
-              }
-              marked_by_[beside] = item;
-              ++look.blocks;
-              ++share_of(sight_.labels[beside]).blocks;
-              if (distance_m < owner_distance_m_[beside]) {
-                owner_distance_m_[beside] = distance_m;
-                owners_[beside] = item;
-              }
-            }
-          }
-        }
+    if (std::optional<Pixel> const block = block_of(p_camera)) {
+      float const measured_m = sight_.depth_m[*block];
+      point.block = static_cast<std::int32_t>(sight_.depth_m.index(*block));
+      point.state = state_of(p_camera.z(), measured_m, sight_.nearest_m[*block]);
+      if (point.state == PointState::kAgrees) {
+        ++share_of(sight_.labels[*block], look).agreeing;
+        mark_around(*block, p_camera.z(), model.spacing_m, item, look);
+      } else if (point.state == PointState::kOccluded && measured_m < p_camera.z()) {
+        ++share_of(sight_.labels[*block], look).hidden;
       }
     }
     ++look.counts[static_cast<std::size_t>(point.state)];

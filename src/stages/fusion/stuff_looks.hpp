@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/belief.hpp"
@@ -69,7 +70,11 @@ public:
 
 private:
   [[nodiscard]] StuffLook look_at(StuffModel const& model, std::int32_t item);
-  void mark(Pixel block, float depth_m, int radius, std::int32_t item, StuffLook& look);
+  /// The block that a point falls on; none out of view.
+  [[nodiscard]] std::optional<Pixel> block_of(Eigen::Vector3f const& p_camera) const;
+  /// What of the thing that is looked at falls on a cluster.
+  ClusterShare& share_of(LabelCode label, StuffLook& look);
+  void mark_around(Pixel block, float point_m, float spacing_m, std::int32_t item, StuffLook& look);
 
   Sight const& sight_;
   Eigen::Matrix3f R_camera_world_;
