@@ -1,0 +1,224 @@
+#include "stages/fusion/stuff_items.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "stages/fusion/table_views.hpp"
+
+namespace credo {
+namespace {
+
+using test::Board;
+using test::View;
+
+constexpr LabelCode kFirst = kFirstStuff;
+constexpr LabelCode kSecond = kFirstStuff + 1;
+constexpr std::int64_t kFrame_ns = 33'333'333;
+
+/// A belief that is shown one view after the other, at 30 Hz.
+class Room {
+public:
+  FusedStuff const& show(View view, int times = 1) {
+    for (int k = 0; k < times; ++k) {
+      view.stamp_ns = kFrame_ns * frame_++;
+      stuff_ = fused_items(std::move(stuff_), test::segmentation_of(view), config_);
+    }
+    return stuff_;
+  }
+  [[nodiscard]] std::vector<StuffBelief> const& stuff() const { return stuff_.stuff; }
+  [[nodiscard]] std::vector<std::uint32_t> ids() const {
+    std::vector<std::uint32_t> ids;
+    for (StuffBelief const& item : stuff_.stuff) {
+      ids.push_back(item.id);
+    }
+    return ids;
+  }
+
+private:
+  FusionConfig config_;
+  FusedStuff stuff_;
+  std::int64_t frame_ = 0;
+};
+
+std::uint64_t bits(double value) {
+  return std::bit_cast<std::uint64_t>(value);
+}
+
+TEST(StuffItems, WhatIsSeenFirstIsBelievedAtOnce) {
+  Room room;
+  room.show({.boards = {{kFirst}}});
+  ASSERT_EQ(room.stuff().size(), 1U);
+  EXPECT_EQ(room.stuff()[0].id, 1U);
+  EXPECT_NEAR(probability_of(room.stuff()[0].log_odds), 0.7, 1e-12);
+  EXPECT_EQ(room.stuff()[0].label, kFirst);
+  EXPECT_EQ(room.stuff()[0].evidence, Evidence::kSeen);
+  EXPECT_EQ(room.stuff()[0].history_count, 1U);
+  // 20 x 20 pixels of a centimetre, 25 points across.
+  EXPECT_NEAR(room.stuff()[0].model->spacing_m, 0.008, 1e-6);
+  EXPECT_EQ(room.stuff()[0].latest().pixel_count, 400U);
+}
+
+// L + n log((1 - k + k .95) / (1 - k + k .05)) up to the bound, k = 1 - exp(-dt / 0.25 s).
+TEST(StuffItems, ASensorThatStandsStillFollowsTheClosedForm) {
+  Room room;
+  room.show({.boards = {{kFirst}}});
+  double const k = 1.0 - std::exp(-1e-9 * static_cast<double>(kFrame_ns) / 0.25);
+  double const step = std::log((1.0 - k + k * 0.95) / (1.0 - k + k * 0.05));
+  for (int n = 1; n <= 1800; ++n) {
+    room.show({.boards = {{kFirst}}});
+    ASSERT_NEAR(room.stuff()[0].log_odds, std::min(4.6, std::log(0.7 / 0.3) + n * step), 1e-9);
+  }
+  EXPECT_EQ(room.stuff().size(), 1U);
+  EXPECT_EQ(room.stuff()[0].history_count, 1801U);
+}
+
+// However long it was seen: the log-odds are bounded.
+TEST(StuffItems, WhatIsGoneIsRemovedAsSoonHoweverLongItWasSeen) {
+  std::vector<int> looks;
+  for (int const seen : {60, 600}) {
+    Room room;
+    room.show({.boards = {{kFirst}}}, seen);
+    int frames = 0;
+    for (; !room.stuff().empty() && frames < 300; ++frames) {
+      room.show({});
+      EXPECT_TRUE(room.stuff().empty() || room.stuff()[0].evidence == Evidence::kSeenThrough);
+    }
+    looks.push_back(frames);
+  }
+  EXPECT_EQ(looks[0], looks[1]);
+  // One look in full, the rest of a second's worth of them.
+  EXPECT_LE(looks[0], 15);
+}
+
+struct Unseen {
+  char const* name;
+  View view;
+  Evidence evidence;
+};
+
+class NothingOfItIsSeen : public testing::TestWithParam<Unseen> {};
+
+TEST_P(NothingOfItIsSeen, AndItsLogOddsStayToTheBit) {
+  Room room;
+  room.show({.boards = {{kFirst}}}, 5);
+  double const before = room.stuff()[0].log_odds;
+  for (int i = 0; i < 300; ++i) {
+    room.show(GetParam().view);
+    ASSERT_EQ(bits(room.stuff()[0].log_odds), bits(before));
+    ASSERT_EQ(room.stuff()[0].evidence, GetParam().evidence);
+    ASSERT_EQ(room.stuff()[0].label, std::nullopt);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, NothingOfItIsSeen,
+                         testing::Values(Unseen{"Hidden",
+                                                {.boards = {{kFirst},
+                                                            {kSecond, -0.1, -0.1, 0.4, 0.4, 1.0}}},
+                                                Evidence::kOccluded},
+                                         Unseen{"OutOfView", {.x_m = 2.0}, Evidence::kOutOfView},
+                                         Unseen{"NoDepth", {.blind_px = 120}, Evidence::kNotSeen}),
+                         [](auto const& instance) { return instance.param.name; });
+
+TEST(StuffItems, WhatIsHalfHiddenIsStillSeen) {
+  Room room;
+  room.show({.boards = {{kFirst}}}, 5);
+  double const before = room.stuff()[0].log_odds;
+  room.show({.boards = {{kFirst}, {kSecond, 0.1, -0.1, 0.4, 0.4, 1.0}}});
+  ASSERT_EQ(room.stuff().size(), 2U);
+  EXPECT_EQ(room.stuff()[0].label, kFirst);
+  EXPECT_GT(room.stuff()[0].log_odds, before);
+}
+
+TEST(StuffItems, AWallBehindThatIsSeenAgainTellsThatItHasGone) {
+  Room room;
+  room.show({.boards = {{kFirst}}}, 5);
+  room.show({.boards = {{kSecond, -0.1, -0.1, 0.4, 0.4, 1.0}}}, 20);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({}, 20);
+  EXPECT_TRUE(room.stuff().empty());
+}
+
+TEST(StuffItems, WhatIsSeenInPiecesIsOneThing) {
+  Room room;
+  room.show({.boards = {{kFirst}}}, 3);
+  Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
+  room.show({.boards = {left, right}}, 30);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+  EXPECT_EQ(room.stuff()[0].label, kFirst);
+  EXPECT_EQ(room.stuff()[0].latest().pixel_count, 400U);
+}
+
+// First in two pieces, then for long as one: the two were one.
+TEST(StuffItems, WhatShowsAsOneForLongBecomesOne) {
+  Room room;
+  Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
+  room.show({.boards = {left, right}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {{kFirst}}}, 5);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {{kFirst}}}, 60);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
+// A magazine on a table: what is measured agrees with the table, too.
+TEST(StuffItems, WhatLiesOnAThingIsAThingOfItsOwn) {
+  Room room;
+  Board const table{kFirst, -0.4, -0.4, 0.8, 0.8, 1.5};
+  Board const magazine{kSecond, 0.0, 0.0, 0.2, 0.2, 1.49, kFirst};
+  room.show({.boards = {table}}, 10);
+  room.show({.boards = {table, magazine}}, 30);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  EXPECT_EQ(room.stuff()[0].label, kFirst);
+  EXPECT_EQ(room.stuff()[1].label, kSecond);
+}
+
+TEST(StuffItems, WhatIsMovedKeepsItsName) {
+  Room room;
+  Board const box{kFirst, 0.0, 0.0, 0.2, 0.3};
+  Board const elsewhere{kFirst, 0.3, -0.1, 0.2, 0.3};
+  room.show({.boards = {box}}, 30);
+  room.show({.boards = {elsewhere}});
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
+  EXPECT_EQ(room.stuff()[0].label, kFirst);
+  EXPECT_NEAR(room.stuff()[0].latest().centroid_world.x(), 0.4F, 0.01F);
+  EXPECT_GE(probability_of(room.stuff()[0].log_odds), 0.7);
+}
+
+TEST(StuffItems, AnotherThingElsewhereIsNew) {
+  Room room;
+  room.show({.boards = {{kFirst, 0.0, 0.0, 0.2, 0.3}}}, 30);
+  room.show({.boards = {{kFirst, 0.3, -0.1, 0.1, 0.1}}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {{kFirst, 0.3, -0.1, 0.1, 0.1}}}, 30);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(2U));
+}
+
+// Three rows and four columns of pixels are a thing, one less is none.
+TEST(StuffItems, WhatIsTooSmallIsNoThing) {
+  Room room;
+  room.show({.boards = {{kFirst, 0.0, 0.0, 0.04, 0.03}}});
+  EXPECT_EQ(room.stuff().size(), 1U);
+  Room other;
+  other.show({.boards = {{kFirst, 0.0, 0.0, 0.03, 0.03}}});
+  EXPECT_TRUE(other.stuff().empty());
+}
+
+TEST(StuffItems, WithoutASightNothingChanges) {
+  Room room;
+  FusedStuff const before = room.show({.boards = {{kFirst}}}, 3);
+  Segmentation frame = test::segmentation_of({.boards = {{kFirst}}});
+  frame.sight = {};
+  FusedStuff const after = fused_items(before, frame, {});
+  ASSERT_EQ(after.stuff.size(), 1U);
+  EXPECT_EQ(bits(after.stuff[0].log_odds), bits(before.stuff[0].log_odds));
+}
+
+}  // namespace
+}  // namespace credo

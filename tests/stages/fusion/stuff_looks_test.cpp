@@ -1,0 +1,111 @@
+#include "stages/fusion/stuff_looks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "stages/fusion/stuff_model.hpp"
+#include "stages/fusion/table_views.hpp"
+
+namespace credo {
+namespace {
+
+using test::Board;
+using test::View;
+
+constexpr LabelCode kFirst = kFirstStuff;
+constexpr LabelCode kSecond = kFirstStuff + 1;
+
+/// A thing with a point every 2 cm of a square of 20 cm, `z_m` away.
+StuffBelief square(double left_m, double z_m) {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 100; ++i) {
+    points.emplace_back(static_cast<float>(left_m) + 0.02F * (static_cast<float>(i % 10) + 0.5F),
+                        0.02F * (static_cast<float>(i / 10) + 0.5F), static_cast<float>(z_m));
+  }
+  StuffBelief item;
+  item.model = std::make_shared<StuffModel const>(new_model(points, 0.25));
+  return item;
+}
+
+StuffLook look(View const& view, StuffBelief const& item) {
+  Segmentation const frame = test::segmentation_of(view);
+  return StuffLooks(frame.sight, frame.T_world_camera, {item}).looks()[0];
+}
+
+TEST(StuffLooks, WhatIsThereAgrees) {
+  StuffLook const seen = look({.boards = {{kFirst}}}, square(0, 1.5));
+  EXPECT_EQ(seen.count(PointState::kAgrees), 100);
+  ASSERT_EQ(seen.shares.size(), 1U);
+  EXPECT_EQ(seen.shares[0].label, kFirst);
+  EXPECT_EQ(seen.shares[0].agreeing, 100);
+  // A pixel is a centimetre there, and a point stands for the 2 cm around it.
+  EXPECT_EQ(seen.shares[0].blocks, 400);
+  EXPECT_EQ(seen.blocks, 400);
+  EXPECT_EQ(seen.shares[0].agreement(), 1.0);
+}
+
+TEST(StuffLooks, WhatIsNearlyThereAgrees) {
+  EXPECT_EQ(look({.boards = {{kFirst}}}, square(0, 1.522)).count(PointState::kAgrees), 100);
+  EXPECT_EQ(look({.boards = {{kFirst}}}, square(0, 1.478)).count(PointState::kAgrees), 100);
+  EXPECT_EQ(look({.boards = {{kFirst}}}, square(0, 1.53)).count(PointState::kAgrees), 0);
+}
+
+TEST(StuffLooks, WhatIsGoneIsSeenThrough) {
+  EXPECT_EQ(look({}, square(0, 1.5)).count(PointState::kSeenThrough), 100);
+}
+
+TEST(StuffLooks, WhatStandsInFrontHides) {
+  Board const in_front{kSecond, 0.0, 0.0, 0.2, 0.2, 1.0};
+  StuffLook const seen = look({.boards = {{kFirst}, in_front}}, square(0, 1.5));
+  EXPECT_EQ(seen.count(PointState::kAgrees), 0);
+  EXPECT_EQ(seen.count(PointState::kSeenThrough), 0);
+  EXPECT_EQ(seen.count(PointState::kOccluded), 100);
+  ASSERT_EQ(seen.shares.size(), 1U);
+  EXPECT_EQ(seen.shares[0].label, kSecond);
+  EXPECT_EQ(seen.shares[0].hidden, 100);
+  EXPECT_EQ(seen.shares[0].agreement(), 0.0);
+}
+
+// At an edge, a pose that is not quite right looks past a thing that is there.
+TEST(StuffLooks, BesideWhatIsThereNothingIsSeenThrough) {
+  StuffLook const seen = look({.boards = {{kFirst, 0.01}}}, square(0, 1.5));
+  EXPECT_EQ(seen.count(PointState::kSeenThrough), 0);
+  EXPECT_EQ(seen.count(PointState::kOccluded), 10);
+}
+
+TEST(StuffLooks, WithoutDepthNothingIsTold) {
+  StuffLook const seen = look({.boards = {{kFirst}}, .blind_px = 120}, square(0, 1.5));
+  EXPECT_EQ(seen.count(PointState::kUnmeasured), 100);
+  EXPECT_TRUE(seen.shares.size() == 1 && seen.shares[0].label == 0 && seen.blocks == 0);
+}
+
+TEST(StuffLooks, OutOfViewNothingIsTold) {
+  EXPECT_EQ(look({.x_m = 2.0}, square(0, 1.5)).count(PointState::kOutOfView), 100);
+  EXPECT_EQ(look({}, square(0, -1.5)).count(PointState::kOutOfView), 100);
+}
+
+TEST(StuffLooks, ABlockIsTheThingsThatFitsItBest) {
+  Segmentation const frame = test::segmentation_of({.boards = {{kFirst}}});
+  StuffLooks const looks(frame.sight, frame.T_world_camera,
+                         {square(0, 1.51), square(0.1, 1.505), square(1.0, 1.5)});
+  EXPECT_EQ((looks.owners()[Pixel{81, 61}]), 0);
+  EXPECT_EQ((looks.owners()[Pixel{95, 61}]), 1);
+  EXPECT_EQ((looks.owners()[Pixel{10, 61}]), -1);
+  // Of each thing every block counts, whosever it is.
+  EXPECT_EQ(looks.looks()[0].blocks, 400);
+}
+
+TEST(StuffLooks, InPiecesEachClusterHasItsShare) {
+  Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
+  StuffLook const seen = look({.boards = {left, right}}, square(0, 1.5));
+  ASSERT_EQ(seen.shares.size(), 2U);
+  EXPECT_EQ(seen.shares[0].blocks, 240);
+  EXPECT_EQ(seen.shares[1].blocks, 160);
+  EXPECT_EQ(seen.blocks, 400);
+}
+
+}  // namespace
+}  // namespace credo
