@@ -36,7 +36,7 @@ soak: drivers    ## SOAK_S seconds at 30 Hz from a virtual sensor: nothing lost,
 	tools/soak.py $(BUILD)/bin/credo $(BUILD)/openni2 out/soak $(SOAK_S)
 
 drivers: build   ## the modules for OpenNI2
-	cmake --build --preset $(PRESET) --target credo_virtual
+	cmake --build --preset $(PRESET) --target credo_virtual credo_freenect
 
 test: deps       ## build and run every test
 	cmake --preset $(PRESET) --log-level=WARNING
