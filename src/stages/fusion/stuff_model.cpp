@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <numeric>
 #include <utility>
 
@@ -27,51 +28,52 @@ std::uint64_t cell_of(Eigen::Vector3f const& point, float spacing_m) {
   return (along(point.x()) << 42U) | (along(point.y()) << 21U) | along(point.z());
 }
 
-struct Placed {
-  std::uint64_t cell;
-  SurfacePoint point;
-};
-
 /// Points of one cell become their mean, one point that weighs as much as the heaviest of them.
-StuffModel thinned(std::vector<Placed> placed, float spacing_m) {
-  std::ranges::stable_sort(placed, {}, &Placed::cell);
+StuffModel thinned(std::span<SurfacePoint const> points, float spacing_m) {
+  struct Place {
+    std::uint64_t cell;
+    std::uint32_t point;
+    auto operator<=>(Place const&) const = default;
+  };
+  std::vector<Place> places;
+  places.reserve(points.size());
+  for (SurfacePoint const& point : points) {
+    places.push_back(
+        {cell_of(point.p_world, spacing_m), static_cast<std::uint32_t>(places.size())});
+  }
+  std::ranges::sort(places);
   StuffModel model;
   model.spacing_m = spacing_m;
-  for (std::size_t i = 0; i < placed.size();) {
+  model.cells.reserve(places.size());
+  model.points.reserve(places.size());
+  for (std::size_t i = 0; i < places.size();) {
     std::size_t const begin = i;
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    SurfacePoint mean;
-    mean.missed = placed[i].point.missed;
-    for (; i < placed.size() && placed[i].cell == placed[begin].cell; ++i) {
-      sum += placed[i].point.p_world;
-      mean.weight = std::max(mean.weight, placed[i].point.weight);
-      mean.missed = std::min(mean.missed, placed[i].point.missed);
+    SurfacePoint mean = points[places[begin].point];
+    for (++i; i < places.size() && places[i].cell == places[begin].cell; ++i) {
+      SurfacePoint const& other = points[places[i].point];
+      mean.p_world += other.p_world;
+      mean.weight = std::max(mean.weight, other.weight);
+      mean.missed = std::min(mean.missed, other.missed);
     }
-    mean.p_world = sum / static_cast<float>(i - begin);
-    model.cells.push_back(placed[begin].cell);
+    mean.p_world /= static_cast<float>(i - begin);
+    model.cells.push_back(places[begin].cell);
     model.points.push_back(mean);
   }
   return model;
 }
 
 StuffModel of_points(std::span<Eigen::Vector3f const> points_world, float spacing_m) {
-  std::vector<Placed> placed;
-  placed.reserve(points_world.size());
+  std::vector<SurfacePoint> points;
+  points.reserve(points_world.size());
   for (Eigen::Vector3f const& point : points_world) {
-    placed.push_back({cell_of(point, spacing_m), {.p_world = point}});
+    points.push_back({.p_world = point});
   }
-  return thinned(std::move(placed), spacing_m);
+  return thinned(points, spacing_m);
 }
 
 StuffModel within_limit(StuffModel model) {
   while (model.points.size() > kMostPoints) {
-    float const spacing_m = model.spacing_m * 1.5F;
-    std::vector<Placed> placed;
-    placed.reserve(model.points.size());
-    for (SurfacePoint const& point : model.points) {
-      placed.push_back({cell_of(point.p_world, spacing_m), point});
-    }
-    model = thinned(std::move(placed), spacing_m);
+    model = thinned(model.points, model.spacing_m * 1.5F);
   }
   return model;
 }

@@ -70,6 +70,13 @@ Segmentation room(int number) {
   return frame;
 }
 
+/// Hand-made frames have clusters, and no depth behind them.
+FusionConfig by_clusters() {
+  FusionConfig config;
+  config.stuff.visibility = false;
+  return config;
+}
+
 BeliefState after(int frames, FusionConfig const& config, Se3 const& motion = {}) {
   BeliefState belief;
   for (int i = 0; i < frames; ++i) {
@@ -99,7 +106,7 @@ void expect_finite(BeliefState const& belief) {
 TEST(Fuse, KeepsTheBooksOfTheFrame) {
   Segmentation segmentation = room(5);
   segmentation.segmented_with = FrameIndex{3};
-  BeliefState const belief = fuse({}, segmentation, {});
+  BeliefState const belief = fuse({}, segmentation, by_clusters());
   EXPECT_EQ(belief.frame, FrameIndex{5});
   EXPECT_EQ(belief.segmented_with, FrameIndex{3});
   EXPECT_EQ(belief.stamp_ns, segmentation.stamp_ns);
@@ -110,12 +117,13 @@ TEST(Fuse, KeepsTheBooksOfTheFrame) {
 }
 
 TEST(Fuse, TakesEmptySegmentations) {
-  BeliefState const first = fuse({}, empty_segmentation(0), {});
+  BeliefState const first = fuse({}, empty_segmentation(0), by_clusters());
   EXPECT_EQ(first.frame, FrameIndex{0});
   EXPECT_FALSE(first.floor);
   EXPECT_THAT(first.walls, IsEmpty());
   EXPECT_THAT(first.stuff, IsEmpty());
-  BeliefState const later = fuse(fuse({}, room(0), {}), empty_segmentation(1), {});
+  BeliefState const later =
+      fuse(fuse({}, room(0), by_clusters()), empty_segmentation(1), by_clusters());
   EXPECT_TRUE(later.floor);
   EXPECT_THAT(later.walls, SizeIs(2));
   for (StuffBelief const& item : later.stuff) {
@@ -149,11 +157,11 @@ TEST(Fuse, ForgetsWhatWentInAboutASecondHoweverLongItWasSeen) {
     for (int i = 0; i < frames_seen; ++i) {
       Segmentation segmentation = empty_segmentation(i);
       segmentation.stuff = {box_cluster(4000, {1, 0, 0}, {0.1F, 0.1F, 0.1F})};
-      belief = fuse(std::move(belief), segmentation, {});
+      belief = fuse(std::move(belief), segmentation, by_clusters());
     }
     int misses = 0;
     while (!belief.stuff.empty() && misses < 1000) {
-      belief = fuse(std::move(belief), empty_segmentation(frames_seen + misses), {});
+      belief = fuse(std::move(belief), empty_segmentation(frames_seen + misses), by_clusters());
       ++misses;
     }
     EXPECT_GT(misses, 15) << frames_seen;
@@ -162,7 +170,7 @@ TEST(Fuse, ForgetsWhatWentInAboutASecondHoweverLongItWasSeen) {
 }
 
 TEST(Fuse, KeepsOneIdForWhatStaysThroughMissesAndMotion) {
-  BeliefState const belief = after(60, {});
+  BeliefState const belief = after(60, by_clusters());
   EXPECT_EQ(belief.next_stuff_id, 9U);
   EXPECT_THAT(belief.stuff, SizeIs(8));
   EXPECT_THAT(belief.walls, SizeIs(2));
@@ -171,8 +179,8 @@ TEST(Fuse, KeepsOneIdForWhatStaysThroughMissesAndMotion) {
 TEST(Fuse, ChangesOnlyCoordinatesWhenTheWorldIsMoved) {
   // About the vertical: walls are walls and the floor is level in any such world.
   Se3 const motion(so3_exp({0, 0, 0.7}), {3, -2, 0});
-  BeliefState const here = after(20, {});
-  BeliefState const there = after(20, {}, motion);
+  BeliefState const here = after(20, by_clusters());
+  BeliefState const there = after(20, by_clusters(), motion);
   ASSERT_EQ(here.stuff.size(), there.stuff.size());
   for (std::size_t i = 0; i < here.stuff.size(); ++i) {
     EXPECT_EQ(here.stuff[i].id, there.stuff[i].id);
@@ -192,7 +200,7 @@ TEST(Fuse, ChangesOnlyCoordinatesWhenTheWorldIsMoved) {
 }
 
 TEST(Fuse, StaysBoundedOverAThousandFrames) {
-  FusionConfig config;
+  FusionConfig config = by_clusters();
   config.floor.max_points = 4000;
   config.walls.max_points = 1000;
   BeliefState belief;
@@ -220,7 +228,7 @@ TEST(Fuse, StaysBoundedOverAThousandFrames) {
 TEST(Fuse, GivesTheSameBytesAtAnyThreadCount) {
   auto const with_threads = [](std::size_t count) {
     tbb::global_control const limit(tbb::global_control::max_allowed_parallelism, count);
-    return after(30, {});
+    return after(30, by_clusters());
   };
   BeliefState const one = with_threads(1);
   BeliefState const many = with_threads(4);
@@ -239,10 +247,10 @@ TEST(Fuse, GivesTheSameBytesAtAnyThreadCount) {
 }
 
 TEST(Fuse, LeavesTheBeliefItStartedFromAlone) {
-  BeliefState const before = after(10, {});
+  BeliefState const before = after(10, by_clusters());
   std::size_t const floor_points = before.floor->points->size();
   std::size_t const history = before.stuff.at(0).recent_clusters.size();
-  BeliefState const copy = fuse(before, room(60), {});
+  BeliefState const copy = fuse(before, room(60), by_clusters());
   EXPECT_GT(copy.floor->points->size(), floor_points);
   EXPECT_EQ(before.floor->points->size(), floor_points);
   EXPECT_EQ(before.stuff.at(0).recent_clusters.size(), history);
@@ -257,7 +265,7 @@ TEST(Fields, DescribeEverythingThatFusionIsToldOnce) {
   for (std::size_t i = 1; i < list.size(); ++i) {
     counts.push_back(std::get<FieldList>(list[i].target).size());
   }
-  EXPECT_THAT(counts, testing::ElementsAre(6, 2, 2, 7, 9));
+  EXPECT_THAT(counts, testing::ElementsAre(6, 2, 2, 7, 11));
 }
 
 }  // namespace

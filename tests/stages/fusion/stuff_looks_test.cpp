@@ -70,7 +70,7 @@ TEST(StuffLooks, WhatStandsInFrontHides) {
 
 // At an edge, a pose that is not quite right looks past a thing that is there.
 TEST(StuffLooks, BesideWhatIsThereNothingIsSeenThrough) {
-  StuffLook const seen = look({.boards = {{kFirst, 0.01}}}, square(0, 1.5));
+  StuffLook const seen = look({.boards = {{kFirst, 0.02}}}, square(0, 1.5));
   EXPECT_EQ(seen.count(PointState::kSeenThrough), 0);
   EXPECT_EQ(seen.count(PointState::kOccluded), 10);
 }
@@ -78,7 +78,8 @@ TEST(StuffLooks, BesideWhatIsThereNothingIsSeenThrough) {
 TEST(StuffLooks, WithoutDepthNothingIsTold) {
   StuffLook const seen = look({.boards = {{kFirst}}, .blind_px = 120}, square(0, 1.5));
   EXPECT_EQ(seen.count(PointState::kUnmeasured), 100);
-  EXPECT_TRUE(seen.shares.size() == 1 && seen.shares[0].label == 0 && seen.blocks == 0);
+  EXPECT_TRUE(seen.shares.empty());
+  EXPECT_EQ(seen.blocks, 0);
 }
 
 TEST(StuffLooks, OutOfViewNothingIsTold) {

@@ -30,6 +30,9 @@ Segmentation segmentation_of(View const& view) {
         }
       }
       bool const blind = u < view.blind_px && v < view.blind_px;
+      if (blind) {
+        segmentation.labels[{u, v}] = kNoDepth;
+      }
       depth_m[{u, v}] = blind ? 0.0F : static_cast<float>(nearest_m);
     }
   }

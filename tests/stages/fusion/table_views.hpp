@@ -25,7 +25,7 @@ struct Board {
 
 /// Where no board is, a wall 3 m away. 160 x 120 at 150 px: 1.5 m away a pixel is a centimetre.
 struct View {
-  std::vector<Board> boards;
+  std::vector<Board> boards = {};
   std::int64_t stamp_ns = 0;
   /// The camera's place; it looks along +z.
   double x_m = 0.0;

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "core/belief.hpp"
+#include "stages/fusion/fusion.hpp"
+#include "stages/fusion/stuff_looks.hpp"
+
+namespace credo {
+
+/// A look at a thing that says something about it.
+struct Finding {
+  Verdict verdict = Verdict::kSeen;
+  /// Of what is usually seen of it, the part that is seen now, or seen through.
+  double visible = 0.0;
+};
+
+/// What a look says of a thing of which so many points ever agreed with one frame; `matched`: one
+/// of the frame's clusters is taken for it, which a pose that is not quite right does not undo.
+/// None where too little of it is seen or seen through, or about as much of both.
+[[nodiscard]] std::optional<Finding> finding_of(StuffLook const& look, double most_agreeing,
+                                                bool matched);
+
+/// Bayes' rule in log-odds, bounded. The more of a thing is seen, or seen through, the more it
+/// counts; what a look repeats of the one before counts by `news` (novelty), a change in full.
+void believe(StuffBelief& item, Finding const& finding, Look const& now, double news,
+             ExistenceConfig const& config);
+
+/// Why its probability moved, or, without a finding, did not: by what most of its points met.
+[[nodiscard]] Evidence evidence_of(StuffLook const& look, std::optional<Finding> const& finding);
+
+}  // namespace credo
