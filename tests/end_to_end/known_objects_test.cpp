@@ -269,7 +269,8 @@ TEST(KnownObjects, ABoxThatNobodyToldOfIsStuff) {
         << "frame " << frame;
     auto const largest = std::ranges::max_element(
         line["stuff"], {}, [](json const& stuff) { return stuff["points"].get<int>(); });
-    EXPECT_GE((*largest)["probability"], 0.989);
+    // It takes three looks to be sure.
+    EXPECT_GE((*largest)["probability"], frame == 0 ? 0.699 : frame == 1 ? 0.97 : 0.989);
   }
 }
 

@@ -32,6 +32,8 @@ constexpr float kMissedLessAgreeing = 0.5F;
 constexpr int kLeastBlocksInAnother = 8;
 constexpr double kShareInAnother = 0.6;
 constexpr double kEnoughToMerge = 3.0;
+/// Stands for floor, walls and known objects; no thing's id.
+constexpr std::uint32_t kKnown = 0;
 // A cluster that things explain by so much is none of its own.
 constexpr double kExplained = 0.7;
 
@@ -233,31 +235,53 @@ private:
     return static_cast<double>(explained) <= kExplained * static_cast<double>(seen.blocks.size());
   }
 
-  /// What shows again and again in another thing's clusters is one with it.
+  /// What shows again and again in another thing's clusters is one with it; what shows as floor,
+  /// wall or known object was that.
   void merge() {
     for (std::size_t j = 0; j < look_count(); ++j) {
       StuffBelief& item = known_.stuff[j];
       if (item.model == nullptr) {
         continue;
       }
-      bool matched = item.label.has_value();
-      std::optional<std::size_t> const host = matched ? std::nullopt : host_of(j);
-      for (OneWith& other : item.one_with) {
-        other.evidence -= matched ? news_[j] : 0.0;
-      }
-      if (host) {
-        std::uint32_t const id = known_.stuff[*host].id;
-        auto found = std::ranges::find(item.one_with, id, &OneWith::id);
-        if (found == item.one_with.end()) {
-          found = item.one_with.insert(found, {id, 0.0});
+      if (item.label) {
+        for (OneWith& other : item.one_with) {
+          other.evidence -= news_[j];
         }
-        found->evidence += news_[j];
-        if (found->evidence > kEnoughToMerge) {
+      } else if (mostly_in(j, shown_as_known(j))) {
+        if (one_with(item, kKnown, news_[j])) {
+          forget(item);
+        }
+      } else if (std::optional<std::size_t> const host = host_of(j)) {
+        if (one_with(item, known_.stuff[*host].id, news_[j])) {
           join(*host, j);
         }
       }
       std::erase_if(item.one_with, [](OneWith const& other) { return other.evidence <= 0.0; });
     }
+  }
+
+  /// Adds to what says that the thing is one with another; whether that is enough.
+  static bool one_with(StuffBelief& item, std::uint32_t id, double news) {
+    auto found = std::ranges::find(item.one_with, id, &OneWith::id);
+    if (found == item.one_with.end()) {
+      found = item.one_with.insert(found, {id, 0.0});
+    }
+    found->evidence += news;
+    return found->evidence > kEnoughToMerge;
+  }
+
+  static void forget(StuffBelief& item) {
+    item.model = nullptr;
+    item.one_with.clear();
+  }
+
+  [[nodiscard]] bool mostly_in(std::size_t j, int blocks) const {
+    return look(j).blocks >= kLeastBlocksInAnother && blocks > kShareInAnother * look(j).blocks;
+  }
+
+  [[nodiscard]] int shown_as_known(std::size_t j) const {
+    auto const share = std::ranges::find(look(j).shares, kFloor, &ClusterShare::label);
+    return share == look(j).shares.end() ? 0 : share->blocks;
   }
 
   [[nodiscard]] std::size_t look_count() const { return looks_.looks().size(); }
@@ -278,8 +302,7 @@ private:
       }
     }
     for (auto const& [host, blocks] : blocks_in) {
-      if (host != j && look(j).blocks >= kLeastBlocksInAnother &&
-          blocks > kShareInAnother * look(j).blocks && known_.stuff[host].model != nullptr) {
+      if (host != j && mostly_in(j, blocks) && known_.stuff[host].model != nullptr) {
         return host;
       }
     }
@@ -302,8 +325,7 @@ private:
     first.most_agreeing = std::max(first.most_agreeing, second.most_agreeing);
     set_model(first, fused_model(*first.model, points_world),
               std::max(first.latest().pixel_count, second.latest().pixel_count));
-    second.model = nullptr;
-    second.one_with.clear();
+    forget(second);
   }
 
   void add_new() {

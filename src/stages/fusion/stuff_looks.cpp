@@ -7,9 +7,15 @@
 namespace credo {
 namespace {
 
-/// The place of a label among clusters: 0 for all that is none.
+/// The name of the share that a label's blocks count for: clusters have their own, floor, walls and
+/// known objects have one, and so has the rest.
+LabelCode share_label(LabelCode label) {
+  return is_stuff(label) ? label : label >= kFloor ? kFloor : kNoDepth;
+}
+
+/// Where the share of that name is found.
 std::size_t place_of(LabelCode label) {
-  return is_stuff(label) ? label - kFirstStuff + std::size_t{1} : 0;
+  return is_stuff(label) ? label - kFirstStuff + std::size_t{2} : label >= kFloor ? 1 : 0;
 }
 
 PointState state_of(float point_m, float measured_m, float nearest_m) {
@@ -35,7 +41,7 @@ StuffLooks::StuffLooks(Sight const& sight, Se3 const& T_world_camera,
   Se3 const T_camera_world = T_world_camera.inverse();
   R_camera_world_ = T_camera_world.rotation().toRotationMatrix().cast<float>();
   t_camera_world_ = T_camera_world.translation().cast<float>();
-  std::size_t places = 1;
+  std::size_t places = 2;
   for (LabelCode const label : sight.labels) {
     places = std::max(places, place_of(label) + 1);
   }
@@ -68,7 +74,7 @@ ClusterShare& StuffLooks::share_of(LabelCode label, StuffLook& look) {
   std::int32_t& place = share_of_label_[place_of(label)];
   if (place < 0) {
     place = static_cast<std::int32_t>(look.shares.size());
-    look.shares.push_back({.label = is_stuff(label) ? label : LabelCode{0}});
+    look.shares.push_back({.label = share_label(label)});
   }
   return look.shares[static_cast<std::size_t>(place)];
 }

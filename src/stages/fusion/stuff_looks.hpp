@@ -31,6 +31,7 @@ struct PointLook {
 
 /// What of a thing falls on one cluster of the frame.
 struct ClusterShare {
+  /// Of the cluster; kFloor for floor, walls and known objects together, kNoDepth for the rest.
   LabelCode label = 0;
   /// Points that agree there, and that what is there hides.
   int agreeing = 0;
