@@ -82,6 +82,8 @@ struct SurfacePoint {
   float weight = 1.0F;
   /// Looks through it, less those that agreed with it.
   float missed = 0.0F;
+  /// Looks that showed it in another cluster than most of its thing, less those that did not.
+  float apart = 0.0F;
 };
 
 /// What is believed of a thing's surface: at most one point to a cell of a grid.

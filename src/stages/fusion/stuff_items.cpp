@@ -13,6 +13,7 @@
 #include "stages/fusion/stuff_looks.hpp"
 #include "stages/fusion/stuff_model.hpp"
 #include "stages/fusion/stuff_moves.hpp"
+#include "stages/fusion/stuff_split.hpp"
 
 namespace credo {
 namespace {
@@ -56,6 +57,9 @@ public:
     }
     move();
     merge();
+    for (Part const& part : parts_) {
+      add(part.label - std::size_t{kFirstStuff}, part.log_odds);
+    }
     std::erase_if(known_.stuff, [&](StuffBelief const& item) {
       return item.model == nullptr ||
              probability_of(item.log_odds) < config_.existence.min_probability;
@@ -146,7 +150,7 @@ private:
   }
 
   /// The model after a look at which it was found in those clusters.
-  void learn(StuffBelief& item, std::size_t i, std::vector<LabelCode> const& labels) {
+  void learn(StuffBelief& item, std::size_t i, std::vector<LabelCode> labels) {
     StuffModel model = *item.model;
     auto const missed = std::max(static_cast<float>(news_[i]), kLeastMissed);
     for (std::size_t p = 0; p < model.points.size(); ++p) {
@@ -160,7 +164,14 @@ private:
         count += itself ? kMissedBeforeItself * missed : missed;
       }
     }
-    model = carved_model(std::move(model));
+    // Points are as in the look until they are carved.
+    SplitModel parted = split_model(std::move(model), look(i), segmentation_.sight.labels,
+                                    *item.label, labels, news_[i]);
+    for (LabelCode const part : parted.parts) {
+      parts_.push_back({part, item.log_odds});
+      std::erase(labels, part);
+    }
+    model = carved_model(std::move(parted.model));
     std::size_t pixels = 0;
     std::vector<Eigen::Vector3f> points_world;
     for (LabelCode const label : labels) {
@@ -330,18 +341,27 @@ private:
 
   void add_new() {
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
-      if (!is_unexplained(c)) {
-        continue;
+      if (is_unexplained(c)) {
+        add(c, log_odds_of(config_.stuff.new_probability));
       }
-      StuffBelief& item = known_.stuff.emplace_back();
-      item.id = known_.next_id++;
-      item.log_odds = log_odds_of(config_.stuff.new_probability);
-      item.label = static_cast<LabelCode>(kFirstStuff + c);
-      item.history_count = 1;
-      item.last_look = now_;
-      begin_model(item, clusters_[c]);
     }
   }
+
+  void add(std::size_t c, double log_odds) {
+    StuffBelief& item = known_.stuff.emplace_back();
+    item.id = known_.next_id++;
+    item.log_odds = log_odds;
+    item.label = static_cast<LabelCode>(kFirstStuff + c);
+    item.history_count = 1;
+    item.last_look = now_;
+    begin_model(item, clusters_[c]);
+  }
+
+  /// A cluster that showed to be a thing of its own, and what is believed of that.
+  struct Part {
+    LabelCode label;
+    double log_odds;
+  };
 
   FusedStuff known_;
   Segmentation const& segmentation_;
@@ -354,6 +374,7 @@ private:
   std::vector<std::int32_t> given_to_;
   /// How much of the frame is news about each thing.
   std::vector<double> news_;
+  std::vector<Part> parts_;
 };
 
 }  // namespace

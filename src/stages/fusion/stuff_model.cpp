@@ -54,6 +54,7 @@ StuffModel thinned(std::span<SurfacePoint const> points, float spacing_m) {
       mean.p_world += other.p_world;
       mean.weight = std::max(mean.weight, other.weight);
       mean.missed = std::min(mean.missed, other.missed);
+      mean.apart = std::min(mean.apart, other.apart);
     }
     mean.p_world /= static_cast<float>(i - begin);
     model.cells.push_back(places[begin].cell);
@@ -116,9 +117,17 @@ StuffModel fused_model(StuffModel const& model, std::span<Eigen::Vector3f const>
 }
 
 StuffModel carved_model(StuffModel model) {
+  std::vector<std::uint8_t> gone(model.points.size());
+  std::ranges::transform(model.points, gone.begin(), [](SurfacePoint const& point) {
+    return point.missed >= kMissedTooOften ? 1 : 0;
+  });
+  return without(std::move(model), gone);
+}
+
+StuffModel without(StuffModel model, std::span<std::uint8_t const> gone) {
   std::vector<std::uint32_t> order(model.points.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::erase_if(order, [&](std::uint32_t i) { return model.points[i].missed >= kMissedTooOften; });
+  std::erase_if(order, [&](std::uint32_t i) { return gone[i] != 0; });
   if (order.size() == model.points.size() || order.size() < kFewestPoints) {
     return model;
   }

@@ -22,6 +22,9 @@ namespace credo {
 /// Without the points that were seen through too often; at least 20 stay, or as many as there are.
 [[nodiscard]] StuffModel carved_model(StuffModel model);
 
+/// Without the points that are marked; all of them stay where fewer than 20 would.
+[[nodiscard]] StuffModel without(StuffModel model, std::span<std::uint8_t const> gone);
+
 /// For whoever reads a belief: its points, their centroid and bounds.
 [[nodiscard]] StuffCluster cluster_of(StuffModel const& model, LabelCode label,
                                       std::size_t pixel_count);

@@ -148,10 +148,25 @@ TEST(StuffItems, WhatIsSeenInPiecesIsOneThing) {
   room.show({.boards = {{kFirst}}}, 3);
   Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
   Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
-  room.show({.boards = {left, right}}, 30);
+  room.show({.boards = {left, right}}, 15);
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
   EXPECT_EQ(room.stuff()[0].label, kFirst);
   EXPECT_EQ(room.stuff()[0].latest().pixel_count, 400U);
+}
+
+// As one at first, then in two for long: they are two.
+TEST(StuffItems, WhatShowsInTwoForLongBecomesTwo) {
+  Room room;
+  room.show({.boards = {{kFirst}}}, 3);
+  double const believed = room.stuff()[0].log_odds;
+  Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
+  room.show({.boards = {left, right}}, 60);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  EXPECT_EQ(room.stuff()[0].label, kFirst);
+  EXPECT_EQ(room.stuff()[1].label, kSecond);
+  EXPECT_LT(room.stuff()[0].latest().bounds_world.max().x(), 0.13F);
+  EXPECT_GE(room.stuff()[1].log_odds, believed);
 }
 
 // First in two pieces, then for long as one: the two were one.
