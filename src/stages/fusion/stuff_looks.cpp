@@ -41,6 +41,11 @@ StuffLooks::StuffLooks(Sight const& sight, Se3 const& T_world_camera,
   Se3 const T_camera_world = T_world_camera.inverse();
   R_camera_world_ = T_camera_world.rotation().toRotationMatrix().cast<float>();
   t_camera_world_ = T_camera_world.translation().cast<float>();
+  CameraIntrinsics const& k = sight.intrinsics;
+  focal_blocks_ =
+      Eigen::Vector2d(k.fx_px, k.fy_px).cast<float>() / static_cast<float>(sight.block_px);
+  centre_blocks_ = Eigen::Vector2d(k.cx_px + 0.5, k.cy_px + 0.5).cast<float>() /
+                   static_cast<float>(sight.block_px);
   std::size_t places = 2;
   for (LabelCode const label : sight.labels) {
     places = std::max(places, place_of(label) + 1);
@@ -56,15 +61,8 @@ std::optional<Pixel> StuffLooks::block_of(Eigen::Vector3f const& p_camera) const
   if (!(p_camera.z() > 0.0F)) {
     return std::nullopt;
   }
-  CameraIntrinsics const& k = sight_.intrinsics;
-  auto const block_px = static_cast<float>(sight_.block_px);
-  auto const along = [&](float coordinate_m, double focal_px, double centre_px) {
-    return std::floor((static_cast<float>(focal_px) * coordinate_m / p_camera.z() +
-                       static_cast<float>(centre_px) + 0.5F) /
-                      block_px);
-  };
-  float const u = along(p_camera.x(), k.fx_px, k.cx_px);
-  float const v = along(p_camera.y(), k.fy_px, k.cy_px);
+  float const u = focal_blocks_.x() * (p_camera.x() / p_camera.z()) + centre_blocks_.x();
+  float const v = focal_blocks_.y() * (p_camera.y() / p_camera.z()) + centre_blocks_.y();
   bool const inside = u >= 0.0F && v >= 0.0F && u < static_cast<float>(sight_.depth_m.width()) &&
                       v < static_cast<float>(sight_.depth_m.height());
   return inside ? std::optional(Pixel{static_cast<int>(u), static_cast<int>(v)}) : std::nullopt;
@@ -83,8 +81,7 @@ ClusterShare& StuffLooks::share_of(LabelCode label, StuffLook& look) {
 void StuffLooks::mark_around(Pixel block, float point_m, float spacing_m, std::int32_t item,
                              StuffLook& look) {
   auto const radius =
-      static_cast<int>(std::lround(spacing_m * static_cast<float>(sight_.intrinsics.fx_px) /
-                                   (2.0F * static_cast<float>(sight_.block_px) * point_m)));
+      static_cast<int>(std::lround(spacing_m * focal_blocks_.x() / (2.0F * point_m)));
   float const tolerance_m = agreement_m(point_m);
   for (int v = block.v - radius; v <= block.v + radius; ++v) {
     for (int u = block.u - radius; u <= block.u + radius; ++u) {

@@ -80,6 +80,9 @@ private:
   Sight const& sight_;
   Eigen::Matrix3f R_camera_world_;
   Eigen::Vector3f t_camera_world_;
+  /// Of the camera, in blocks instead of pixels.
+  Eigen::Vector2f focal_blocks_;
+  Eigen::Vector2f centre_blocks_;
   std::vector<StuffLook> looks_;
   Grid<std::int32_t> owners_;
   Grid<float> owner_distance_m_;
