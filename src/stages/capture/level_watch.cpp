@@ -29,8 +29,9 @@ std::string told(FloorNow const& floor, bool given) {
   char const* const against = given ? "the calibration; put it back, or calibrate anew"
                                     : "the start; put it back, or start anew";
   std::array<char, 240> text{};
+  // NOLINTNEXTLINE(*-vararg)
   std::snprintf(
-      text.data(), text.size(),  // NOLINT(*-vararg)
+      text.data(), text.size(),
       "the camera has moved: the floor is %.1f degrees off level and %.0f mm %s than at %s",
       floor.tilt_rad * 180.0 / std::numbers::pi, std::abs(floor.rise_m) * 1000.0,
       floor.rise_m < 0.0 ? "lower" : "higher", against);
