@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "stages/fusion/table_views.hpp"
@@ -188,10 +190,74 @@ TEST(StuffItems, WhatLiesOnAThingIsAThingOfItsOwn) {
   Board const table{kFirst, -0.4, -0.4, 0.8, 0.8, 1.5};
   Board const magazine{kSecond, 0.0, 0.0, 0.2, 0.2, 1.49, kFirst};
   room.show({.boards = {table}}, 10);
-  room.show({.boards = {table, magazine}}, 30);
+  room.show({.boards = {table, magazine}}, 2);
   ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
   EXPECT_EQ(room.stuff()[0].label, kFirst);
   EXPECT_EQ(room.stuff()[1].label, kSecond);
+}
+
+// A pose that is not quite right looks past most of it.
+TEST(StuffItems, WhatAClusterIsTakenForHasNotGone) {
+  Room room;
+  room.show({.boards = {{kFirst}}}, 5);
+  double const before = room.stuff()[0].log_odds;
+  room.show({.boards = {{kFirst, 0.0, 0.0, 0.06, 0.2}}});
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
+  EXPECT_EQ(room.stuff()[0].evidence, Evidence::kSeen);
+  EXPECT_GT(room.stuff()[0].log_odds, before);
+}
+
+/// Of the right half of a board 1.5 m away, the model's points there.
+std::ptrdiff_t right_half(StuffBelief const& item) {
+  return std::ranges::count_if(item.model->points, [](SurfacePoint const& point) {
+    return point.p_world.x() > 0.12F && point.p_world.z() < 1.53F;
+  });
+}
+
+// What is seen through is carved away, and more slowly where the thing itself is behind.
+TEST(StuffItems, WhatIsSeenThroughIsCarvedAway) {
+  Board const left{kFirst, 0.0, 0.0, 0.1, 0.2};
+  Board const behind{kFirst, 0.1, 0.0, 0.1, 0.2, 1.6};
+  for (auto const& [boards, stays] :
+       {std::pair{std::vector<Board>{left}, false}, {std::vector<Board>{left, behind}, true}}) {
+    Room room;
+    room.show({.boards = {{kFirst}}}, 3);
+    EXPECT_GT(right_half(room.stuff()[0]), 50);
+    room.show({.boards = boards}, 40);
+    EXPECT_EQ(right_half(room.stuff()[0]) > 50, stays);
+  }
+}
+
+// Until it is plain that two things are one, neither takes the other's points.
+TEST(StuffItems, WhatIsAnothersIsNotLearnt) {
+  Room room;
+  Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
+  room.show({.boards = {left, right}}, 5);
+  room.show({.boards = {{kFirst}}}, 5);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  EXPECT_LT(room.stuff()[0].latest().bounds_world.max().x(), 0.13F);
+}
+
+class KnownByNow : public testing::TestWithParam<LabelCode> {};
+
+TEST_P(KnownByNow, WhatShowsAsSuchForLongWasThat) {
+  Room room;
+  room.show({.boards = {{kFirst}}}, 3);
+  room.show({.boards = {{GetParam()}}}, 10);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
+  EXPECT_EQ(room.stuff()[0].evidence, Evidence::kSeen);
+  room.show({.boards = {{GetParam()}}}, 50);
+  EXPECT_TRUE(room.stuff().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, KnownByNow, testing::Values(kFloor, kFirstWall, kFirstObject + 2));
+
+TEST(StuffItems, WhatNothingExplainsStays) {
+  Room room;
+  room.show({.boards = {{kFirst}}}, 3);
+  room.show({.boards = {{std::nullopt}}}, 60);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
 }
 
 TEST(StuffItems, WhatIsMovedKeepsItsName) {

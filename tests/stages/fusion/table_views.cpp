@@ -37,7 +37,7 @@ Segmentation segmentation_of(View const& view) {
     }
   }
   for (Board const& board : view.boards) {
-    if (board.label) {
+    if (board.label && is_stuff(*board.label)) {
       std::size_t const place = *board.label - std::size_t{kFirstStuff};
       segmentation.stuff.resize(std::max(segmentation.stuff.size(), place + 1));
       segmentation.stuff[place].label = *board.label;

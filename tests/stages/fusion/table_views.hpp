@@ -12,7 +12,7 @@ namespace credo::test {
 /// A board that faces the camera, its edges along the image's. World metres; the camera looks along
 /// +z from where it stands.
 struct Board {
-  /// Its cluster; none for what is no stuff.
+  /// Of its cluster, or of the wall or known object that it is; none for what nothing explains.
   std::optional<LabelCode> label;
   double left_m = 0.0;
   double top_m = 0.0;
