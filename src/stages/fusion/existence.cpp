@@ -42,9 +42,13 @@ double updated_log_odds(double log_odds, Evidence before, Evidence now, double n
   double const k = changed ? 1.0 : novelty;
   double const updated =
       log_odds + std::log((1.0 - k + k * if_present) / (1.0 - k + k * if_absent));
+  return bounded_log_odds(updated, config);
+}
+
+double bounded_log_odds(double log_odds, ExistenceConfig const& config) {
   return config.max_log_odds == 0.0
-             ? updated
-             : std::clamp(updated, -config.max_log_odds, config.max_log_odds);
+             ? log_odds
+             : std::clamp(log_odds, -config.max_log_odds, config.max_log_odds);
 }
 
 }  // namespace credo

@@ -36,4 +36,7 @@ struct ViewChange {
 [[nodiscard]] double updated_log_odds(double log_odds, Evidence before, Evidence now,
                                       double novelty, ExistenceConfig const& config);
 
+/// Within the config's bound, if it has one.
+[[nodiscard]] double bounded_log_odds(double log_odds, ExistenceConfig const& config);
+
 }  // namespace credo

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "stages/fusion/existence.hpp"
+
 namespace credo {
 namespace {
 
@@ -59,7 +61,7 @@ void believe(StuffBelief& item, Finding const& finding, Look const& now, double 
   bool const changed = (finding.verdict == Verdict::kSeen) != (item.verdict == Verdict::kSeen);
   double const k = changed ? 1.0 : news;
   double const moved = item.log_odds + std::log((1.0 - k + k * if_there) / (1.0 - k + k * if_not));
-  item.log_odds = std::clamp(moved, -config.max_log_odds, config.max_log_odds);
+  item.log_odds = bounded_log_odds(moved, config);
   item.verdict = finding.verdict;
   item.last_look = now;
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "stages/fusion/stuff_findings.hpp"
 #include "stages/fusion/table_views.hpp"
 
 namespace credo {
@@ -289,6 +290,15 @@ TEST(StuffItems, WhatIsTooSmallIsNoThing) {
   Room other;
   other.show({.boards = {{kFirst, 0.0, 0.0, 0.03, 0.03}}});
   EXPECT_TRUE(other.stuff().empty());
+}
+
+TEST(StuffItems, ABoundOf0IsNone) {
+  FusionConfig config;
+  config.existence.max_log_odds = 0.0;
+  StuffBelief item;
+  item.log_odds = 4.0;
+  believe(item, {Verdict::kSeen, 1.0}, {}, 1.0, config.existence);
+  EXPECT_NEAR(item.log_odds, 4.0 + std::log(0.95 / 0.05), 1e-12);
 }
 
 TEST(StuffItems, WithoutASightNothingChanges) {
