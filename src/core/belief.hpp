@@ -9,19 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "core/evidence.hpp"
 #include "core/frame.hpp"
 #include "core/label.hpp"
 #include "core/plane.hpp"
 #include "core/segmentation.hpp"
 
 namespace credo {
-
-/// Why a probability moved, or did not, in the last frame.
-enum class Evidence : std::uint8_t { kSeen, kSeenThrough, kOccluded, kOutOfView, kNotSeen };
-
-/// The word that files and topics use: "seen", "seen_through", "occluded", "out_of_view",
-/// "not_seen".
-[[nodiscard]] char const* to_string(Evidence evidence);
 
 [[nodiscard]] inline double probability_of(double log_odds) {
   return 1.0 / (1.0 + std::exp(-log_odds));
@@ -30,12 +24,30 @@ enum class Evidence : std::uint8_t { kSeen, kSeenThrough, kOccluded, kOutOfView,
   return std::log(probability / (1.0 - probability));
 }
 
+/// When and from where something was seen.
+struct Look {
+  std::int64_t stamp_ns = 0;
+  Eigen::Vector3d camera_world = Eigen::Vector3d::Zero();
+};
+
+/// What looks say of a thing: that it is there, that it has gone, or, where one sees through nearly
+/// all of it, that it has surely gone.
+enum class Verdict : std::uint8_t { kSeen, kGone, kSurelyGone };
+
 /// Everything accumulated about the floor (thesis 4.2). World frame.
 struct FloorBelief {
   /// Unit, up.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   /// z of the plane below the points' centroid.
   double height_m = 0.0;
+  double log_odds = 0.0;
+  Evidence evidence = Evidence::kNotSeen;
+  Account why;
+  /// What the last look that told of it said, and when and from where that was.
+  Verdict verdict = Verdict::kSeen;
+  Look last_look;
+  /// The most of the points looked at that ever agreed with one frame.
+  double most_agreeing = 0.0;
   /// Union of all observations, one point per cell of a grid; shared between successive beliefs.
   std::shared_ptr<PointList const> points = std::make_shared<PointList>();
 };
@@ -50,14 +62,24 @@ struct WallBelief {
   std::shared_ptr<PointList const> points = std::make_shared<PointList>();
   /// Pixels of all observations so far: the weight of the normal and offset in the next merge.
   double weight_pixels = 0.0;
+  double log_odds = 0.0;
+  Evidence evidence = Evidence::kNotSeen;
+  Account why;
+  /// What the last look that told of it said, and when and from where that was.
+  Verdict verdict = Verdict::kSeen;
+  Look last_look;
+  /// The most of the points looked at that ever agreed with one frame.
+  double most_agreeing = 0.0;
   /// Its code in the last frame's label image; none where that frame did not show it.
   std::optional<LabelCode> label;
 };
 
-/// When and from where something was seen.
-struct Look {
-  std::int64_t stamp_ns = 0;
-  Eigen::Vector3d camera_world = Eigen::Vector3d::Zero();
+/// Another place where a known object is found, while it is not where it is believed to be.
+struct OtherPlace {
+  PoseDistribution pose_world;
+  /// That it is there.
+  double log_odds = 0.0;
+  Look last_seen;
 };
 
 /// A known object: pose distribution and the probability that it is there (thesis 4.1).
@@ -70,9 +92,15 @@ struct ObjectBelief {
   /// what was learnt of the pose is never forgotten.
   std::optional<Matrix6d> prior_covariance;
   Evidence evidence = Evidence::kNotSeen;
+  Account why;
   std::optional<LabelCode> label;
   /// When and from where it was seen last; none while it is where it was told.
   std::optional<Look> last_seen;
+  /// What the last look that told of it said, and when and from where that was; none while there
+  /// was none.
+  Verdict verdict = Verdict::kSeen;
+  std::optional<Look> last_look;
+  std::optional<OtherPlace> other_place;
 };
 
 /// A point of what is believed of a thing's surface. World frame.
@@ -94,10 +122,6 @@ struct StuffModel {
   std::vector<SurfacePoint> points;
 };
 
-/// What looks say of a thing: that it is there, that it has gone, or, where one sees through nearly
-/// all of it, that it has surely gone.
-enum class Verdict : std::uint8_t { kSeen, kGone, kSurelyGone };
-
 /// How much says that a thing is one with another.
 struct OneWith {
   std::uint32_t id = 0;
@@ -113,6 +137,7 @@ struct StuffBelief {
   /// Oldest first; never empty. Shared between successive beliefs.
   std::vector<std::shared_ptr<StuffCluster const>> recent_clusters;
   Evidence evidence = Evidence::kSeen;
+  Account why;
   std::optional<LabelCode> label;
 
   // The rest is of the rule that knows what it could not see; with the thesis' rule it stays empty.
@@ -134,7 +159,11 @@ struct BeliefState {
   FrameIndex frame = kPriorFrame;
   std::int64_t stamp_ns = 0;
   FrameIndex segmented_with = kPriorFrame;
+  /// Of the camera in the last frame, corrected.
   Se3 T_world_camera;
+  /// What the frames' poses are corrected by: from the world that they tell to the one that is
+  /// believed. The identity where nothing is corrected.
+  Se3 T_world_told;
   std::optional<FloorBelief> floor;
   std::vector<WallBelief> walls;
   std::vector<ObjectBelief> objects;

@@ -36,8 +36,8 @@ std::pair<double, double> likelihoods(Finding const& finding) {
 }  // namespace
 
 std::optional<Finding> finding_of(StuffLook const& look, double most_agreeing, bool matched) {
-  int const agrees = look.count(PointState::kAgrees);
-  int const told = agrees + look.count(PointState::kSeenThrough);
+  int const agrees = look.counts[PointState::kAgrees];
+  int const told = agrees + look.counts[PointState::kSeenThrough];
   double const visible = told / (kUsuallySeen * std::max(1.0, most_agreeing));
   if (told < kLeastPoints || visible <= kLeastVisible) {
     return std::nullopt;
@@ -70,8 +70,8 @@ Evidence evidence_of(StuffLook const& look, std::optional<Finding> const& findin
   if (finding) {
     return finding->verdict == Verdict::kSeen ? Evidence::kSeen : Evidence::kSeenThrough;
   }
-  int const hidden = look.count(PointState::kOccluded);
-  int const out_of_view = look.count(PointState::kOutOfView);
+  int const hidden = look.counts[PointState::kOccluded];
+  int const out_of_view = look.counts[PointState::kOutOfView];
   int const rest = static_cast<int>(look.points.size()) - hidden - out_of_view;
   return out_of_view >= std::max(hidden, rest) ? Evidence::kOutOfView
          : hidden >= rest                      ? Evidence::kOccluded

@@ -146,7 +146,7 @@ private:
       learn(item, i, labels);
     }
     item.most_agreeing =
-        std::max(item.most_agreeing, static_cast<double>(seen.count(PointState::kAgrees)));
+        std::max(item.most_agreeing, static_cast<double>(seen.counts[PointState::kAgrees]));
   }
 
   /// The model after a look at which it was found in those clusters.

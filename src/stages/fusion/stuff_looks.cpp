@@ -120,7 +120,7 @@ StuffLook StuffLooks::look_at(StuffModel const& model, std::int32_t item) {
         ++share_of(sight_.labels[*block], look).hidden;
       }
     }
-    ++look.counts[static_cast<std::size_t>(point.state)];
+    ++look.counts[point.state];
   }
   for (ClusterShare const& share : look.shares) {
     share_of_label_[place_of(share.label)] = -1;

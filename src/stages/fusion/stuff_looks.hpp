@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,17 +10,6 @@
 #include "core/sight.hpp"
 
 namespace credo {
-
-/// What a frame says of one point.
-enum class PointState : std::uint8_t {
-  kOutOfView,
-  kUnmeasured,
-  /// Something is measured where it is believed to be.
-  kAgrees,
-  /// Something nearer hides it; or is so near beside it that it might.
-  kOccluded,
-  kSeenThrough,
-};
 
 struct PointLook {
   PointState state = PointState::kOutOfView;
@@ -47,16 +35,11 @@ struct ClusterShare {
 /// What a frame says of one thing.
 struct StuffLook {
   std::vector<PointLook> points;
-  /// By PointState.
-  std::array<int, 5> counts{};
+  PointCounts counts;
   /// Blocks that agree, each once.
   int blocks = 0;
   /// Clusters that it shares blocks or hidden points with, by ascending label.
   std::vector<ClusterShare> shares;
-
-  [[nodiscard]] int count(PointState state) const {
-    return counts[static_cast<std::size_t>(state)];
-  }
 };
 
 /// A frame, seen from which things are looked at.

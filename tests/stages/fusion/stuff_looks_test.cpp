@@ -36,7 +36,7 @@ StuffLook look(View const& view, StuffBelief const& item) {
 
 TEST(StuffLooks, WhatIsThereAgrees) {
   StuffLook const seen = look({.boards = {{kFirst}}}, square(0, 1.5));
-  EXPECT_EQ(seen.count(PointState::kAgrees), 100);
+  EXPECT_EQ(seen.counts[PointState::kAgrees], 100);
   ASSERT_EQ(seen.shares.size(), 1U);
   EXPECT_EQ(seen.shares[0].label, kFirst);
   EXPECT_EQ(seen.shares[0].agreeing, 100);
@@ -47,21 +47,21 @@ TEST(StuffLooks, WhatIsThereAgrees) {
 }
 
 TEST(StuffLooks, WhatIsNearlyThereAgrees) {
-  EXPECT_EQ(look({.boards = {{kFirst}}}, square(0, 1.522)).count(PointState::kAgrees), 100);
-  EXPECT_EQ(look({.boards = {{kFirst}}}, square(0, 1.478)).count(PointState::kAgrees), 100);
-  EXPECT_EQ(look({.boards = {{kFirst}}}, square(0, 1.53)).count(PointState::kAgrees), 0);
+  EXPECT_EQ(look({.boards = {{kFirst}}}, square(0, 1.522)).counts[PointState::kAgrees], 100);
+  EXPECT_EQ(look({.boards = {{kFirst}}}, square(0, 1.478)).counts[PointState::kAgrees], 100);
+  EXPECT_EQ(look({.boards = {{kFirst}}}, square(0, 1.53)).counts[PointState::kAgrees], 0);
 }
 
 TEST(StuffLooks, WhatIsGoneIsSeenThrough) {
-  EXPECT_EQ(look({}, square(0, 1.5)).count(PointState::kSeenThrough), 100);
+  EXPECT_EQ(look({}, square(0, 1.5)).counts[PointState::kSeenThrough], 100);
 }
 
 TEST(StuffLooks, WhatStandsInFrontHides) {
   Board const in_front{kSecond, 0.0, 0.0, 0.2, 0.2, 1.0};
   StuffLook const seen = look({.boards = {{kFirst}, in_front}}, square(0, 1.5));
-  EXPECT_EQ(seen.count(PointState::kAgrees), 0);
-  EXPECT_EQ(seen.count(PointState::kSeenThrough), 0);
-  EXPECT_EQ(seen.count(PointState::kOccluded), 100);
+  EXPECT_EQ(seen.counts[PointState::kAgrees], 0);
+  EXPECT_EQ(seen.counts[PointState::kSeenThrough], 0);
+  EXPECT_EQ(seen.counts[PointState::kOccluded], 100);
   ASSERT_EQ(seen.shares.size(), 1U);
   EXPECT_EQ(seen.shares[0].label, kSecond);
   EXPECT_EQ(seen.shares[0].hidden, 100);
@@ -71,20 +71,20 @@ TEST(StuffLooks, WhatStandsInFrontHides) {
 // At an edge, a pose that is not quite right looks past a thing that is there.
 TEST(StuffLooks, BesideWhatIsThereNothingIsSeenThrough) {
   StuffLook const seen = look({.boards = {{kFirst, 0.02}}}, square(0, 1.5));
-  EXPECT_EQ(seen.count(PointState::kSeenThrough), 0);
-  EXPECT_EQ(seen.count(PointState::kOccluded), 10);
+  EXPECT_EQ(seen.counts[PointState::kSeenThrough], 0);
+  EXPECT_EQ(seen.counts[PointState::kOccluded], 10);
 }
 
 TEST(StuffLooks, WithoutDepthNothingIsTold) {
   StuffLook const seen = look({.boards = {{kFirst}}, .blind_px = 120}, square(0, 1.5));
-  EXPECT_EQ(seen.count(PointState::kUnmeasured), 100);
+  EXPECT_EQ(seen.counts[PointState::kUnmeasured], 100);
   EXPECT_TRUE(seen.shares.empty());
   EXPECT_EQ(seen.blocks, 0);
 }
 
 TEST(StuffLooks, OutOfViewNothingIsTold) {
-  EXPECT_EQ(look({.x_m = 2.0}, square(0, 1.5)).count(PointState::kOutOfView), 100);
-  EXPECT_EQ(look({}, square(0, -1.5)).count(PointState::kOutOfView), 100);
+  EXPECT_EQ(look({.x_m = 2.0}, square(0, 1.5)).counts[PointState::kOutOfView], 100);
+  EXPECT_EQ(look({}, square(0, -1.5)).counts[PointState::kOutOfView], 100);
 }
 
 TEST(StuffLooks, ABlockIsTheThingsThatFitsItBest) {
