@@ -56,11 +56,12 @@ void make_independent(Stages& stages, PipelineConfig const& config, Prior const&
     return find_objects(frame, normals, begin_segmentation(frame, level, seen), seen, *known,
                         config);
   };
-  stages.fusion = [config, prior](BeliefState const& latest, Segmentation const& segmentation) {
+  stages.fusion = [config, prior, known](BeliefState const& latest,
+                                         Segmentation const& segmentation) {
     BeliefState fresh = prior_belief(prior, segmentation.T_world_camera);
     fresh.next_wall_id = latest.next_wall_id;
     fresh.next_stuff_id = latest.next_stuff_id;
-    return fuse(std::move(fresh), segmentation, config.fusion);
+    return fuse(std::move(fresh), segmentation, config.fusion, known->surfaces);
   };
 }
 
@@ -85,13 +86,13 @@ Stages make_stages(PipelineConfig const& config, WorldLevel const& level, Prior 
   };
   stages.clustering = [config](Frame const& frame, NormalMap const& normals, Segmentation so_far) {
     so_far = cluster_stuff(frame, normals, std::move(so_far), config.clustering);
-    if (config.fusion.stuff.visibility) {
+    if (config.fusion.visibility) {
       so_far.sight = sight_of(frame.cloud_camera.z, so_far.labels, frame.intrinsics);
     }
     return so_far;
   };
-  stages.fusion = [config](BeliefState belief, Segmentation const& segmentation) {
-    return fuse(std::move(belief), segmentation, config.fusion);
+  stages.fusion = [config, known](BeliefState belief, Segmentation const& segmentation) {
+    return fuse(std::move(belief), segmentation, config.fusion, known->surfaces);
   };
   if (config.capture.independent_frames) {
     make_independent(stages, config, prior, known);

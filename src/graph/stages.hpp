@@ -10,6 +10,7 @@
 #include "core/object_model.hpp"
 #include "core/prior_file.hpp"
 #include "core/segmentation.hpp"
+#include "geometry/known_surface.hpp"
 #include "geometry/object_shape.hpp"
 #include "graph/pipeline_config.hpp"
 #include "stages/capture/level.hpp"
@@ -33,6 +34,7 @@ struct Stages {
 struct KnownObjects {
   ObjectModels models;
   ObjectShapes shapes;
+  KnownSurfaces surfaces;
   /// None: nobody looks for objects.
   std::unique_ptr<Detector> detector;
 };

@@ -56,6 +56,7 @@ std::shared_ptr<KnownObjects const> known_objects(KnownScene const& known,
   auto objects = std::make_shared<KnownObjects>();
   objects->models = known.models;
   objects->shapes = shapes_of(known.models);
+  objects->surfaces = known_surfaces(known.models);
   objects->detector = std::make_unique<SimDetector>(known.scene, detector);
   return objects;
 }

@@ -104,9 +104,8 @@ TEST_F(Topics, EachThingIsAnInstanceThatGoesWithIt) {
        (source_folder() / "scenes/priors/bottle-moves.yaml").string(), "--set", "detector.kind=sim",
        "--set", "detector.sim.sigma_position_m=0", "--set", "detector.sim.sigma_rotation_rad=0",
        // So that the bottle becomes another thing where it is moved to, and the first one goes.
-       "--set", "fusion.stuff.visibility=false", "--set",
-       "dds.topic_prefix=" + config_.topic_prefix, "--set", "dds.source=robot", "--out",
-       (folder_ / "out").string(), "--linger", "60"}));
+       "--set", "fusion.visibility=false", "--set", "dds.topic_prefix=" + config_.topic_prefix,
+       "--set", "dds.source=robot", "--out", (folder_ / "out").string(), "--linger", "60"}));
   auto const take_all = [&] {
     stuff.take();
     objects.take();

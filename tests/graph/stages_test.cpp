@@ -72,6 +72,7 @@ protected:
     auto known = std::make_shared<KnownObjects>();
     known->models = {{"box", {"box", {std::vector<Solid>{box_on_base({0.1, 0.2, 0.3})}}, {}}}};
     known->shapes = shapes_of(known->models);
+    known->surfaces = known_surfaces(known->models);
     auto detector = std::make_unique<FakeDetector>(asked_);
     detector_ = detector.get();
     known->detector = std::move(detector);

@@ -90,6 +90,7 @@ SceneRun run_recipe(Recipe const& recipe) {
   auto const known = std::make_shared<KnownObjects>();
   known->models = std::move(prior.models);
   known->shapes = shapes_of(known->models);
+  known->surfaces = known_surfaces(known->models);
   known->detector = open_detector(config.detector, "sim:" + recipe.scene);
   ReadAhead source(std::make_unique<SimSource>(scene, config.pose, config.sim));
   WorldLevel const level = find_level_ahead(source, config.pose);

@@ -45,6 +45,19 @@ double updated_log_odds(double log_odds, Evidence before, Evidence now, double n
   return bounded_log_odds(updated, config);
 }
 
+double log_odds_step(double ratio, double counts) {
+  double const if_there = ratio / (1.0 + ratio);
+  double const if_not = 1.0 / (1.0 + ratio);
+  return std::log((1.0 - counts + counts * if_there) / (1.0 - counts + counts * if_not));
+}
+
+void add_step(double& log_odds, double step, Account& why, ExistenceConfig const& config) {
+  double const before = log_odds;
+  log_odds = bounded_log_odds(before + step, config);
+  why.moved += log_odds - before;
+  why.bounded = log_odds != before + step;
+}
+
 double bounded_log_odds(double log_odds, ExistenceConfig const& config) {
   return config.max_log_odds == 0.0
              ? log_odds

@@ -36,6 +36,14 @@ struct ViewChange {
 [[nodiscard]] double updated_log_odds(double log_odds, Evidence before, Evidence now,
                                       double novelty, ExistenceConfig const& config);
 
+/// Bayes' rule in log-odds: what a look adds that is `ratio` times as likely if the thing is there,
+/// and of which the part `counts` is evidence, as above. The same for P(look | there) = ratio / (1
+/// + ratio) and P(look | not there) = 1 / (1 + ratio).
+[[nodiscard]] double log_odds_step(double ratio, double counts);
+
+/// Adds a step, within the bound, and gives account of it.
+void add_step(double& log_odds, double step, Account& why, ExistenceConfig const& config);
+
 /// Within the config's bound, if it has one.
 [[nodiscard]] double bounded_log_odds(double log_odds, ExistenceConfig const& config);
 

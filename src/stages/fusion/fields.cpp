@@ -46,6 +46,17 @@ FieldList fields(ObjectFusionConfig& config) {
        {0, 1},
        "",
        "how far a look in vain takes what is believed gone back to the prior's uncertainty"},
+      {"never_found_share",
+       &config.never_found_share,
+       {0, 1},
+       "",
+       "with visibility: what shows no more of itself no detector finds"},
+      {"surely_found_share",
+       &config.surely_found_share,
+       {0, 1},
+       "",
+       "with visibility: what shows so much of itself is found as surely as it ever is; above "
+       "never_found_share"},
   };
 }
 
@@ -90,14 +101,6 @@ FieldList fields(WallFusionConfig& config) {
 
 FieldList fields(StuffFusionConfig& config) {
   return {
-      {"visibility",
-       &config.visibility,
-       {},
-       "",
-       "what is hidden or out of view keeps its probability, what is seen through loses it; false: "
-       "as the thesis has it"},
-      {"new_probability", &config.new_probability, kProbability, "",
-       "with visibility: that stuff seen for the first time is there"},
       {"box_margin_m",
        &config.box_margin_m,
        {0, 10},
@@ -147,8 +150,16 @@ FieldList fields(StuffFusionConfig& config) {
 
 FieldList fields(FusionConfig& config) {
   return {
+      {"visibility",
+       &config.visibility,
+       {},
+       "",
+       "what is hidden or out of view keeps its probability, what is seen through loses it; false: "
+       "as the thesis has it"},
       {"prior_probability", &config.prior_probability, kProbability, "",
-       "that a known object, or stuff seen for the first time, is there"},
+       "that a known object is there; without visibility also what is seen for the first time"},
+      {"new_probability", &config.new_probability, kProbability, "",
+       "with visibility: that what is seen for the first time is there"},
       section("existence", fields(config.existence),
               "how observations move the probability that a thing is there"),
       section("objects", fields(config.objects),

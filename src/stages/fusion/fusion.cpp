@@ -7,27 +7,44 @@
 #include "stages/fusion/objects.hpp"
 #include "stages/fusion/stuff.hpp"
 #include "stages/fusion/stuff_items.hpp"
+#include "stages/fusion/surroundings.hpp"
 #include "stages/fusion/walls.hpp"
 
 namespace credo {
 
-BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConfig const& config) {
+namespace {
+
+void fuse_surroundings(BeliefState& belief, Segmentation const& segmentation,
+                       FusionConfig const& config) {
+  SurroundingsLook const look = look_around(belief.floor, belief.walls, segmentation);
+  belief.floor = fused_floor(std::move(belief.floor), segmentation.floor, config.floor);
+  FusedWalls walls =
+      fused_walls({std::move(belief.walls), belief.next_wall_id}, segmentation.walls, config.walls);
+  belief.walls = std::move(walls.walls);
+  belief.next_wall_id = walls.next_id;
+  if (config.visibility) {
+    belief.floor = believed_floor(std::move(belief.floor), look.floor, segmentation, config);
+    belief.walls = believed_walls(std::move(belief.walls), look.walls, segmentation, config);
+  } else {
+    take_for_granted(belief, segmentation, config);
+  }
+}
+
+}  // namespace
+
+BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConfig const& config,
+                 KnownSurfaces const& surfaces) {
   ViewChange const change = view_change(prior, segmentation);
   BeliefState belief = std::move(prior);
   belief.frame = segmentation.frame;
   belief.stamp_ns = segmentation.stamp_ns;
   belief.segmented_with = segmentation.segmented_with;
   belief.T_world_camera = segmentation.T_world_camera;
-  belief.objects = fused_objects(std::move(belief.objects), segmentation, change, config);
-  belief.floor = fused_floor(std::move(belief.floor), segmentation.floor, config.floor);
-  FusedWalls walls =
-      fused_walls({std::move(belief.walls), belief.next_wall_id}, segmentation.walls, config.walls);
-  belief.walls = std::move(walls.walls);
-  belief.next_wall_id = walls.next_id;
+  belief.objects = fused_objects(std::move(belief.objects), segmentation, change, surfaces, config);
+  fuse_surroundings(belief, segmentation, config);
   FusedStuff stuff{std::move(belief.stuff), belief.next_stuff_id};
-  stuff = config.stuff.visibility
-              ? fused_items(std::move(stuff), segmentation, config)
-              : fused_stuff(std::move(stuff), segmentation.stuff, change, config);
+  stuff = config.visibility ? fused_items(std::move(stuff), segmentation, config)
+                            : fused_stuff(std::move(stuff), segmentation.stuff, change, config);
   belief.stuff = std::move(stuff.stuff);
   belief.next_stuff_id = stuff.next_id;
   return belief;

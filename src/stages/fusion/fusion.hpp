@@ -5,6 +5,7 @@
 #include "core/belief.hpp"
 #include "core/fields.hpp"
 #include "core/segmentation.hpp"
+#include "geometry/known_surface.hpp"
 
 namespace credo {
 
@@ -34,6 +35,10 @@ struct ObjectFusionConfig {
   /// its pose goes back to the uncertainty of the prior: so much of the way for a look at what is
   /// believed to be gone (T: 0, never).
   double unseen_relaxation = 0.1;
+  // Of the rule that knows what it could not see: a detector finds nothing of which no more than
+  // the first part is visible, and what is there as surely as it ever does from the second on.
+  double never_found_share = 0.3;
+  double surely_found_share = 0.7;
 };
 FieldList fields(ObjectFusionConfig& config);
 
@@ -72,14 +77,9 @@ enum class StuffScore : std::uint8_t {
   kSum,
 };
 
-/// When a cluster is a thing that the belief holds, and what is kept of it (thesis 4.3, algorithm
-/// 6).
+/// When a cluster is a thing that the belief holds, and what is kept of it, by the thesis' rule
+/// (4.3, algorithm 6).
 struct StuffFusionConfig {
-  /// The rule that knows what it could not see (stuff_items.hpp); else the thesis', which has all
-  /// that follows.
-  bool visibility = true;
-  /// That what is seen for the first time is there; of the rule that knows what it could not see.
-  double new_probability = 0.7;
   /// Bounding boxes this far apart still count as overlapping.
   double box_margin_m = 0.02;
   /// ICP sees at most as many points of a cluster, 8 or more, thinned from `point_spacing_m`
@@ -99,8 +99,13 @@ struct StuffFusionConfig {
 FieldList fields(StuffFusionConfig& config);
 
 struct FusionConfig {
-  /// That a known object, or stuff seen for the first time, is there.
+  /// The rule that knows what it could not see (stuff_items.hpp, objects.hpp, surroundings.hpp);
+  /// else the thesis'.
+  bool visibility = true;
+  /// That a known object is there; with the thesis' rule also what is seen for the first time.
   double prior_probability = 0.99;
+  /// That what is seen for the first time is there, with the rule that knows what it could not see.
+  double new_probability = 0.7;
   ExistenceConfig existence;
   ObjectFusionConfig objects;
   FloorFusionConfig floor;
@@ -115,7 +120,9 @@ FieldList fields(FusionConfig& config);
 /// Total: an empty segmentation is a frame in which nothing was seen. Planes without a finite point
 /// and clusters without points are passed over. Objects are found again by id; one that the belief
 /// does not hold is passed over.
+///
+/// `surfaces`: of known objects, by type. One without is believed by the thesis' rule.
 [[nodiscard]] BeliefState fuse(BeliefState prior, Segmentation const& segmentation,
-                               FusionConfig const& config);
+                               FusionConfig const& config, KnownSurfaces const& surfaces = {});
 
 }  // namespace credo

@@ -1,9 +1,14 @@
 #include "stages/fusion/objects.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "geometry/pose_fusion.hpp"
+#include "stages/fusion/object_looks.hpp"
+#include "stages/fusion/object_places.hpp"
+#include "stages/fusion/stuff_findings.hpp"
 
 namespace credo {
 namespace {
@@ -34,29 +39,88 @@ void miss(ObjectBelief& object, double news, ObjectFusionConfig const& config) {
   }
 }
 
+ObjectObservation const* observation_of(ObjectBelief const& object,
+                                        Segmentation const& segmentation) {
+  auto const found =
+      std::ranges::find(segmentation.objects, object.id, &ObjectObservation::object_id);
+  return found != segmentation.objects.end() ? &*found : nullptr;
+}
+
+/// The thesis' rule: what was not found is the less likely to be there, for whatever reason.
+void update(ObjectBelief& object, Segmentation const& segmentation, ViewChange const& change,
+            FusionConfig const& config) {
+  Evidence const before = std::exchange(object.evidence, Evidence::kNotSeen);
+  object.why.news = novelty(change, object.pose_world.mean.translation(), config.existence);
+  if (ObjectObservation const* const observation = observation_of(object, segmentation)) {
+    see(object, *observation, segmentation, config);
+  } else {
+    miss(object, object.why.news, config.objects);
+  }
+  double const moved_to =
+      updated_log_odds(object.log_odds, before, object.evidence, object.why.news, config.existence);
+  object.why.moved = moved_to - object.log_odds;
+  object.log_odds = moved_to;
+}
+
+/// How much likelier this look is if the object is there.
+double likelihood_ratio(ObjectLook const& look, bool found, ExistenceConfig const& config) {
+  double const found_ratio = config.seen_if_present / config.seen_if_absent;
+  return found ? found_ratio : look.missed_if_there / (1.0 - look.found_if_there / found_ratio);
+}
+
+/// The rule that knows what could not be seen.
+void update(ObjectBelief& object, Segmentation const& segmentation, ObjectLook const& look,
+            FusionConfig const& config) {
+  Look const now{segmentation.stamp_ns, segmentation.T_world_camera.translation()};
+  ViewChange const since = object.last_look ? view_change(*object.last_look, now) : ViewChange{};
+  double const news = novelty(since, object.pose_world.mean.translation(), config.existence);
+  object.why = {.points = look.points, .visible_share = look.visible_share, .news = news};
+  object.evidence = evidence_of(look.points, std::nullopt);
+  ObjectObservation const* const observation = observation_of(object, segmentation);
+  double const ratio = likelihood_ratio(look, observation != nullptr, config.existence);
+  if (ratio == 1.0) {
+    return;
+  }
+  bool const seen_through =
+      look.points[PointState::kSeenThrough] > look.points[PointState::kAgrees];
+  if (observation != nullptr) {
+    see(object, *observation, segmentation, config);
+  } else {
+    object.evidence = seen_through ? Evidence::kSeenThrough : Evidence::kNotSeen;
+    miss(object, news, config.objects);
+  }
+  Verdict const verdict = observation != nullptr ? Verdict::kSeen : Verdict::kGone;
+  double const counts = verdict != object.verdict ? 1.0 : news;
+  add_step(object.log_odds, log_odds_step(ratio, counts), object.why, config.existence);
+  object.verdict = verdict;
+  object.last_look = now;
+}
+
 }  // namespace
 
 std::vector<ObjectBelief> fused_objects(std::vector<ObjectBelief> objects,
                                         Segmentation const& segmentation, ViewChange const& change,
-                                        FusionConfig const& config) {
+                                        KnownSurfaces const& surfaces, FusionConfig const& config) {
+  std::optional<ObjectLooks> looks;
+  if (config.visibility) {
+    looks.emplace(segmentation.sight, segmentation.T_world_camera, config);
+  }
   for (ObjectBelief& object : objects) {
-    Evidence const before = std::exchange(object.evidence, Evidence::kNotSeen);
     object.label.reset();
+    object.why = {};
     if (!segmentation.objects_looked_for) {
+      object.evidence = Evidence::kNotSeen;
       continue;
     }
-    double const news = novelty(change, object.pose_world.mean.translation(), config.existence);
-    auto const observation =
-        std::ranges::find(segmentation.objects, object.id, &ObjectObservation::object_id);
-    if (observation != segmentation.objects.end()) {
-      see(object, *observation, segmentation, config);
+    auto const surface = surfaces.find(object.type);
+    if (looks && surface != surfaces.end()) {
+      update(object, segmentation, looks->look_at(object.pose_world, surface->second), config);
     } else {
-      miss(object, news, config.objects);
+      update(object, segmentation, change, config);
     }
-    object.log_odds =
-        updated_log_odds(object.log_odds, before, object.evidence, news, config.existence);
   }
-  return objects;
+  return config.visibility ? moved_objects(std::move(objects), segmentation, surfaces, config)
+                           : std::move(objects);
 }
 
 }  // namespace credo

@@ -22,6 +22,7 @@ namespace credo {
 [[nodiscard]] std::vector<ObjectBelief> fused_objects(std::vector<ObjectBelief> objects,
                                                       Segmentation const& segmentation,
                                                       ViewChange const& change,
+                                                      KnownSurfaces const& surfaces,
                                                       FusionConfig const& config);
 
 }  // namespace credo

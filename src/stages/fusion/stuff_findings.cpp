@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
-
-#include "stages/fusion/existence.hpp"
 
 namespace credo {
 namespace {
@@ -35,9 +34,9 @@ std::pair<double, double> likelihoods(Finding const& finding) {
 
 }  // namespace
 
-std::optional<Finding> finding_of(StuffLook const& look, double most_agreeing, bool matched) {
-  int const agrees = look.counts[PointState::kAgrees];
-  int const told = agrees + look.counts[PointState::kSeenThrough];
+std::optional<Finding> finding_of(PointCounts const& look, double most_agreeing, bool matched) {
+  int const agrees = look[PointState::kAgrees];
+  int const told = agrees + look[PointState::kSeenThrough];
   double const visible = told / (kUsuallySeen * std::max(1.0, most_agreeing));
   if (told < kLeastPoints || visible <= kLeastVisible) {
     return std::nullopt;
@@ -55,24 +54,24 @@ std::optional<Finding> finding_of(StuffLook const& look, double most_agreeing, b
   return std::nullopt;
 }
 
-void believe(StuffBelief& item, Finding const& finding, Look const& now, double news,
-             ExistenceConfig const& config) {
+double likelihood_ratio(Finding const& finding) {
   auto const [if_there, if_not] = likelihoods(finding);
-  bool const changed = (finding.verdict == Verdict::kSeen) != (item.verdict == Verdict::kSeen);
-  double const k = changed ? 1.0 : news;
-  double const moved = item.log_odds + std::log((1.0 - k + k * if_there) / (1.0 - k + k * if_not));
-  item.log_odds = bounded_log_odds(moved, config);
-  item.verdict = finding.verdict;
-  item.last_look = now;
+  return if_there / if_not;
 }
 
-Evidence evidence_of(StuffLook const& look, std::optional<Finding> const& finding) {
+double log_odds_step(Finding const& finding, double counts) {
+  auto const [if_there, if_not] = likelihoods(finding);
+  return std::log((1.0 - counts + counts * if_there) / (1.0 - counts + counts * if_not));
+}
+
+Evidence evidence_of(PointCounts const& look, std::optional<Finding> const& finding) {
   if (finding) {
     return finding->verdict == Verdict::kSeen ? Evidence::kSeen : Evidence::kSeenThrough;
   }
-  int const hidden = look.counts[PointState::kOccluded];
-  int const out_of_view = look.counts[PointState::kOutOfView];
-  int const rest = static_cast<int>(look.points.size()) - hidden - out_of_view;
+  int const hidden = look[PointState::kOccluded];
+  int const out_of_view = look[PointState::kOutOfView];
+  int const all = std::accumulate(look.by_state.begin(), look.by_state.end(), 0);
+  int const rest = all - hidden - out_of_view;
   return out_of_view >= std::max(hidden, rest) ? Evidence::kOutOfView
          : hidden >= rest                      ? Evidence::kOccluded
                                                : Evidence::kNotSeen;

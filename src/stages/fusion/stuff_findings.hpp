@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "core/belief.hpp"
+#include "stages/fusion/existence.hpp"
 #include "stages/fusion/fusion.hpp"
-#include "stages/fusion/stuff_looks.hpp"
 
 namespace credo {
 
@@ -18,15 +18,29 @@ struct Finding {
 /// What a look says of a thing of which so many points ever agreed with one frame; `matched`: one
 /// of the frame's clusters is taken for it, which a pose that is not quite right does not undo.
 /// None where too little of it is seen or seen through, or about as much of both.
-[[nodiscard]] std::optional<Finding> finding_of(StuffLook const& look, double most_agreeing,
+[[nodiscard]] std::optional<Finding> finding_of(PointCounts const& look, double most_agreeing,
                                                 bool matched);
 
-/// Bayes' rule in log-odds, bounded. The more of a thing is seen, or seen through, the more it
-/// counts; what a look repeats of the one before counts by `news` (novelty), a change in full.
-void believe(StuffBelief& item, Finding const& finding, Look const& now, double news,
-             ExistenceConfig const& config);
+/// How much likelier the finding is if the thing is there.
+[[nodiscard]] double likelihood_ratio(Finding const& finding);
+
+/// What it adds to the log-odds where the part `counts` of the look is evidence (existence.hpp).
+[[nodiscard]] double log_odds_step(Finding const& finding, double counts);
+
+/// Of a thing, a wall or the floor: Bayes' rule in log-odds, bounded. The more of a thing is seen,
+/// or seen through, the more it counts; what a look repeats of the one before counts by `news`
+/// (novelty), a change in full.
+template <typename Thing>
+void believe(Thing& thing, Finding const& finding, Look const& now, double news,
+             ExistenceConfig const& config) {
+  bool const changed = (finding.verdict == Verdict::kSeen) != (thing.verdict == Verdict::kSeen);
+  double const step = log_odds_step(finding, changed ? 1.0 : news);
+  add_step(thing.log_odds, step, thing.why, config);
+  thing.verdict = finding.verdict;
+  thing.last_look = now;
+}
 
 /// Why its probability moved, or, without a finding, did not: by what most of its points met.
-[[nodiscard]] Evidence evidence_of(StuffLook const& look, std::optional<Finding> const& finding);
+[[nodiscard]] Evidence evidence_of(PointCounts const& look, std::optional<Finding> const& finding);
 
 }  // namespace credo

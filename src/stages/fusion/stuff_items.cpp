@@ -134,8 +134,8 @@ private:
       }
     }
     bool const matched = !labels.empty();
-    std::optional<Finding> const finding = finding_of(seen, item.most_agreeing, matched);
-    item.evidence = evidence_of(seen, finding);
+    std::optional<Finding> const finding = finding_of(seen.counts, item.most_agreeing, matched);
+    item.evidence = evidence_of(seen.counts, finding);
     Eigen::Vector3d const middle = item.latest().centroid_world.cast<double>();
     news_[i] = novelty(view_change(item.last_look, now_), middle, config_.existence);
     if (finding) {
@@ -210,7 +210,7 @@ private:
       item.evidence = Evidence::kSeen;
       item.verdict = Verdict::kSeen;
       item.last_look = now_;
-      item.log_odds = std::max(item.log_odds, log_odds_of(config_.stuff.new_probability));
+      item.log_odds = std::max(item.log_odds, log_odds_of(config_.new_probability));
       ++item.history_count;
       begin_model(item, seen);
       given_to_[found.cluster] = static_cast<std::int32_t>(found.item);
@@ -342,7 +342,7 @@ private:
   void add_new() {
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
       if (is_unexplained(c)) {
-        add(c, log_odds_of(config_.stuff.new_probability));
+        add(c, log_odds_of(config_.new_probability));
       }
     }
   }

@@ -18,34 +18,15 @@ std::size_t place_of(LabelCode label) {
   return is_stuff(label) ? label - kFirstStuff + std::size_t{2} : label >= kFloor ? 1 : 0;
 }
 
-PointState state_of(float point_m, float measured_m, float nearest_m) {
-  float const tolerance_m = agreement_m(point_m);
-  if (!(measured_m > 0.0F)) {
-    return PointState::kUnmeasured;
-  }
-  if (std::abs(measured_m - point_m) < tolerance_m) {
-    return PointState::kAgrees;
-  }
-  return nearest_m > point_m + tolerance_m ? PointState::kSeenThrough : PointState::kOccluded;
-}
-
 }  // namespace
 
 StuffLooks::StuffLooks(Sight const& sight, Se3 const& T_world_camera,
                        std::vector<StuffBelief> const& stuff)
-    : sight_(sight),
+    : view_(sight, T_world_camera),
       owners_(sight.depth_m.width(), sight.depth_m.height(), -1),
       owner_distance_m_(sight.depth_m.width(), sight.depth_m.height(),
                         std::numeric_limits<float>::infinity()),
       marked_by_(sight.depth_m.width(), sight.depth_m.height(), -1) {
-  Se3 const T_camera_world = T_world_camera.inverse();
-  R_camera_world_ = T_camera_world.rotation().toRotationMatrix().cast<float>();
-  t_camera_world_ = T_camera_world.translation().cast<float>();
-  CameraIntrinsics const& k = sight.intrinsics;
-  focal_blocks_ =
-      Eigen::Vector2d(k.fx_px, k.fy_px).cast<float>() / static_cast<float>(sight.block_px);
-  centre_blocks_ = Eigen::Vector2d(k.cx_px + 0.5, k.cy_px + 0.5).cast<float>() /
-                   static_cast<float>(sight.block_px);
   std::size_t places = 2;
   for (LabelCode const label : sight.labels) {
     places = std::max(places, place_of(label) + 1);
@@ -55,17 +36,6 @@ StuffLooks::StuffLooks(Sight const& sight, Se3 const& T_world_camera,
   for (StuffBelief const& item : stuff) {
     looks_.push_back(look_at(*item.model, static_cast<std::int32_t>(looks_.size())));
   }
-}
-
-std::optional<Pixel> StuffLooks::block_of(Eigen::Vector3f const& p_camera) const {
-  if (!(p_camera.z() > 0.0F)) {
-    return std::nullopt;
-  }
-  float const u = focal_blocks_.x() * (p_camera.x() / p_camera.z()) + centre_blocks_.x();
-  float const v = focal_blocks_.y() * (p_camera.y() / p_camera.z()) + centre_blocks_.y();
-  bool const inside = u >= 0.0F && v >= 0.0F && u < static_cast<float>(sight_.depth_m.width()) &&
-                      v < static_cast<float>(sight_.depth_m.height());
-  return inside ? std::optional(Pixel{static_cast<int>(u), static_cast<int>(v)}) : std::nullopt;
 }
 
 ClusterShare& StuffLooks::share_of(LabelCode label, StuffLook& look) {
@@ -81,20 +51,20 @@ ClusterShare& StuffLooks::share_of(LabelCode label, StuffLook& look) {
 void StuffLooks::mark_around(Pixel block, float point_m, float spacing_m, std::int32_t item,
                              StuffLook& look) {
   auto const radius =
-      static_cast<int>(std::lround(spacing_m * focal_blocks_.x() / (2.0F * point_m)));
+      static_cast<int>(std::lround(spacing_m * view_.focal_blocks() / (2.0F * point_m)));
   float const tolerance_m = agreement_m(point_m);
   for (int v = block.v - radius; v <= block.v + radius; ++v) {
     for (int u = block.u - radius; u <= block.u + radius; ++u) {
-      if (!sight_.depth_m.contains({u, v}) || marked_by_[{u, v}] == item) {
+      if (!view_.sight().depth_m.contains({u, v}) || marked_by_[{u, v}] == item) {
         continue;
       }
-      float const distance_m = std::abs(sight_.depth_m[{u, v}] - point_m);
+      float const distance_m = std::abs(view_.sight().depth_m[{u, v}] - point_m);
       if (distance_m >= tolerance_m) {
         continue;
       }
       marked_by_[{u, v}] = item;
       ++look.blocks;
-      ++share_of(sight_.labels[{u, v}], look).blocks;
+      ++share_of(view_.sight().labels[{u, v}], look).blocks;
       if (distance_m < owner_distance_m_[{u, v}]) {
         owner_distance_m_[{u, v}] = distance_m;
         owners_[{u, v}] = item;
@@ -108,16 +78,16 @@ StuffLook StuffLooks::look_at(StuffModel const& model, std::int32_t item) {
   look.points.resize(model.points.size());
   for (std::size_t i = 0; i < model.points.size(); ++i) {
     PointLook& point = look.points[i];
-    Eigen::Vector3f const p_camera = R_camera_world_ * model.points[i].p_world + t_camera_world_;
-    if (std::optional<Pixel> const block = block_of(p_camera)) {
-      float const measured_m = sight_.depth_m[*block];
-      point.block = static_cast<std::int32_t>(sight_.depth_m.index(*block));
-      point.state = state_of(p_camera.z(), measured_m, sight_.nearest_m[*block]);
+    Eigen::Vector3f const p_camera = view_.in_camera(model.points[i].p_world);
+    if (std::optional<Pixel> const block = view_.block_of(p_camera)) {
+      float const measured_m = view_.sight().depth_m[*block];
+      point.block = static_cast<std::int32_t>(view_.sight().depth_m.index(*block));
+      point.state = state_of(p_camera.z(), measured_m, view_.sight().nearest_m[*block]);
       if (point.state == PointState::kAgrees) {
-        ++share_of(sight_.labels[*block], look).agreeing;
+        ++share_of(view_.sight().labels[*block], look).agreeing;
         mark_around(*block, p_camera.z(), model.spacing_m, item, look);
       } else if (point.state == PointState::kOccluded && measured_m < p_camera.z()) {
-        ++share_of(sight_.labels[*block], look).hidden;
+        ++share_of(view_.sight().labels[*block], look).hidden;
       }
     }
     ++look.counts[point.state];

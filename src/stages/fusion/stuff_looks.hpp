@@ -2,12 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/belief.hpp"
 #include "core/se3.hpp"
 #include "core/sight.hpp"
+#include "stages/fusion/sight_view.hpp"
 
 namespace credo {
 
@@ -54,18 +54,11 @@ public:
 
 private:
   [[nodiscard]] StuffLook look_at(StuffModel const& model, std::int32_t item);
-  /// The block that a point falls on; none out of view.
-  [[nodiscard]] std::optional<Pixel> block_of(Eigen::Vector3f const& p_camera) const;
   /// What of the thing that is looked at falls on a cluster.
   ClusterShare& share_of(LabelCode label, StuffLook& look);
   void mark_around(Pixel block, float point_m, float spacing_m, std::int32_t item, StuffLook& look);
 
-  Sight const& sight_;
-  Eigen::Matrix3f R_camera_world_;
-  Eigen::Vector3f t_camera_world_;
-  /// Of the camera, in blocks instead of pixels.
-  Eigen::Vector2f focal_blocks_;
-  Eigen::Vector2f centre_blocks_;
+  SightView view_;
   std::vector<StuffLook> looks_;
   Grid<std::int32_t> owners_;
   Grid<float> owner_distance_m_;
@@ -74,10 +67,5 @@ private:
   /// Of the thing that is looked at; places in its shares by label, -1 where there is none.
   std::vector<std::int32_t> share_of_label_;
 };
-
-/// How far a measured depth may lie from a point that it agrees with.
-[[nodiscard]] constexpr float agreement_m(float depth_m) {
-  return 0.01F + 0.01F * depth_m;
-}
 
 }  // namespace credo

@@ -73,7 +73,7 @@ Segmentation room(int number) {
 /// Hand-made frames have clusters, and no depth behind them.
 FusionConfig by_clusters() {
   FusionConfig config;
-  config.stuff.visibility = false;
+  config.visibility = false;
   return config;
 }
 
@@ -259,13 +259,15 @@ TEST(Fuse, LeavesTheBeliefItStartedFromAlone) {
 TEST(Fields, DescribeEverythingThatFusionIsToldOnce) {
   FusionConfig config;
   FieldList const list = fields(config);
-  ASSERT_THAT(list, SizeIs(6));
-  EXPECT_EQ(list[0].name, "prior_probability");
+  ASSERT_THAT(list, SizeIs(8));
+  EXPECT_EQ(list[0].name, "visibility");
+  EXPECT_EQ(list[1].name, "prior_probability");
+  EXPECT_EQ(list[2].name, "new_probability");
   std::vector<std::size_t> counts;
-  for (std::size_t i = 1; i < list.size(); ++i) {
+  for (std::size_t i = 3; i < list.size(); ++i) {
     counts.push_back(std::get<FieldList>(list[i].target).size());
   }
-  EXPECT_THAT(counts, testing::ElementsAre(6, 2, 2, 7, 11));
+  EXPECT_THAT(counts, testing::ElementsAre(6, 4, 2, 7, 9));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ FusionConfig thesis_config() {
   config.objects.unseen_relaxation = 0.0;
   config.walls.segment_trim_ratio = 0.0;
   config.walls.merge_known = false;
-  config.stuff.visibility = false;
+  config.visibility = false;
   config.stuff.score = StuffScore::kSum;
   config.stuff.max_rms_m = 0.0;
   config.stuff.max_displacement_m = 0.0;

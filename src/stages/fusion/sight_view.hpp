@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "core/evidence.hpp"
+#include "core/se3.hpp"
+#include "core/sight.hpp"
+
+namespace credo {
+
+/// How far a measured depth may lie from a point that it agrees with.
+[[nodiscard]] constexpr float agreement_m(float depth_m) {
+  return 0.01F + 0.01F * depth_m;
+}
+
+/// What a frame says of a point `point_m` along the optical axis: `measured_m` is the depth of the
+/// block that it falls on, `nearest_m` the least around that.
+[[nodiscard]] inline PointState state_of(float point_m, float measured_m, float nearest_m) {
+  float const tolerance_m = agreement_m(point_m);
+  if (!(measured_m > 0.0F)) {
+    return PointState::kUnmeasured;
+  }
+  if (measured_m > point_m - tolerance_m && measured_m < point_m + tolerance_m) {
+    return PointState::kAgrees;
+  }
+  return nearest_m > point_m + tolerance_m ? PointState::kSeenThrough : PointState::kOccluded;
+}
+
+/// A frame's blocks, looked at from where its camera stood.
+class SightView {
+public:
+  /// `sight` must outlive it.
+  SightView(Sight const& sight, Se3 const& T_world_camera) : sight_(sight) {
+    Se3 const T_camera_world = T_world_camera.inverse();
+    R_camera_world_ = T_camera_world.rotation().toRotationMatrix().cast<float>();
+    t_camera_world_ = T_camera_world.translation().cast<float>();
+    CameraIntrinsics const& k = sight.intrinsics;
+    auto const block_px = static_cast<float>(sight.block_px);
+    focal_blocks_ = Eigen::Vector2d(k.fx_px, k.fy_px).cast<float>() / block_px;
+    centre_blocks_ = Eigen::Vector2d(k.cx_px + 0.5, k.cy_px + 0.5).cast<float>() / block_px;
+  }
+
+  [[nodiscard]] Sight const& sight() const { return sight_; }
+  [[nodiscard]] float focal_blocks() const { return focal_blocks_.x(); }
+  [[nodiscard]] Eigen::Vector3f in_camera(Eigen::Vector3f const& p_world) const {
+    return R_camera_world_ * p_world + t_camera_world_;
+  }
+
+  /// The block that a point falls on; none out of view.
+  [[nodiscard]] std::optional<Pixel> block_of(Eigen::Vector3f const& p_camera) const {
+    if (!(p_camera.z() > 0.0F)) {
+      return std::nullopt;
+    }
+    float const u = focal_blocks_.x() * (p_camera.x() / p_camera.z()) + centre_blocks_.x();
+    float const v = focal_blocks_.y() * (p_camera.y() / p_camera.z()) + centre_blocks_.y();
+    bool const inside = u >= 0.0F && v >= 0.0F && u < static_cast<float>(sight_.depth_m.width()) &&
+                        v < static_cast<float>(sight_.depth_m.height());
+    return inside ? std::optional(Pixel{static_cast<int>(u), static_cast<int>(v)}) : std::nullopt;
+  }
+
+  [[nodiscard]] PointState look_at(Eigen::Vector3f const& p_world) const {
+    Eigen::Vector3f const p_camera = in_camera(p_world);
+    std::optional<Pixel> const block = block_of(p_camera);
+    return block ? state_of(p_camera.z(), sight_.depth_m[*block], sight_.nearest_m[*block])
+                 : PointState::kOutOfView;
+  }
+
+private:
+  Sight const& sight_;
+  Eigen::Matrix3f R_camera_world_;
+  Eigen::Vector3f t_camera_world_;
+  /// Of the camera, in blocks instead of pixels.
+  Eigen::Vector2f focal_blocks_;
+  Eigen::Vector2f centre_blocks_;
+};
+
+}  // namespace credo
