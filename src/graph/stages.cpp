@@ -2,7 +2,9 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "geometry/pose_fusion.hpp"
 #include "geometry/sight.hpp"
 #include "stages/segments/settling.hpp"
 #include "stages/segments/things.hpp"
@@ -20,6 +22,20 @@ Segmentation begin_segmentation(Frame const& frame, WorldLevel const& level,
   return segmentation;
 }
 
+/// Where the observed objects most likely are: as they were detected, or as belief and detection
+/// together tell.
+std::vector<Se3> observed_poses(Segmentation const& segmentation, BeliefState const& seen,
+                                bool from_belief) {
+  std::vector<Se3> poses_world;
+  for (ObjectObservation const& object : segmentation.objects) {
+    PoseDistribution const& expected = seen.objects[object.object].pose_world;
+    poses_world.push_back(from_belief
+                              ? updated_pose(expected, object.pose_world, object.symmetry).mean
+                              : object.pose_world.mean);
+  }
+  return poses_world;
+}
+
 /// Method section 1, steps 2 and 3.
 Segmentation find_objects(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
                           BeliefState const& seen, KnownObjects const& known,
@@ -31,7 +47,10 @@ Segmentation find_objects(Frame const& frame, NormalMap const& normals, Segmenta
       known.detector->detect(frame, detection_requests(seen, segmentation.T_world_camera));
   segmentation =
       match_detections(std::move(segmentation), seen, detections, known.models, config.detection);
-  return grow_objects(frame, normals, std::move(segmentation), known.shapes, config.region_growing);
+  std::vector<Se3> const poses_world =
+      observed_poses(segmentation, seen, config.region_growing.from_belief);
+  return grow_objects(frame, normals, std::move(segmentation), poses_world, known.shapes,
+                      config.region_growing);
 }
 
 /// Which way is up is known where the level is.

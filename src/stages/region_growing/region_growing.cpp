@@ -30,8 +30,8 @@ void check(Frame const& frame, NormalMap const& normals, Segmentation const& seg
 }
 
 std::vector<Region> regions_of(OrganizedCloud const& cloud, NormalMap const& normals,
-                               Segmentation const& segmentation, ObjectShapes const& shapes,
-                               RegionGrowingConfig const& config) {
+                               Segmentation const& segmentation, std::span<Se3 const> poses_world,
+                               ObjectShapes const& shapes, RegionGrowingConfig const& config) {
   std::vector<Region> regions;
   for (std::size_t i = 0; i < segmentation.objects.size(); ++i) {
     ObjectObservation const& object = segmentation.objects[i];
@@ -40,7 +40,7 @@ std::vector<Region> regions_of(OrganizedCloud const& cloud, NormalMap const& nor
       continue;
     }
     PlacedShape const placed{&shape->second,
-                             object.pose_world.mean.inverse() * segmentation.T_world_camera};
+                             poses_world[i].inverse() * segmentation.T_world_camera};
     regions.push_back({i, object_pixels(cloud, normals, placed, config)});
   }
   return regions;
@@ -168,15 +168,37 @@ FieldList fields(RegionGrowingConfig& config) {
        {0, 1},
        "m",
        "points as near to a mesh with holes, which has no inside, seed its region"},
+      {"from_belief",
+       &config.from_belief,
+       {},
+       "",
+       "regions grow where belief and detection together have the object; false: where the "
+       "detection "
+       "has it"},
   };
 }
 
 Segmentation grow_objects(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
                           ObjectShapes const& shapes, RegionGrowingConfig const& config) {
+  std::vector<Se3> detected;
+  for (ObjectObservation const& object : segmentation.objects) {
+    detected.push_back(object.pose_world.mean);
+  }
+  return grow_objects(frame, normals, std::move(segmentation), detected, shapes, config);
+}
+
+Segmentation grow_objects(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
+                          std::span<Se3 const> poses_world, ObjectShapes const& shapes,
+                          RegionGrowingConfig const& config) {
+  if (poses_world.size() != segmentation.objects.size()) {
+    throw std::logic_error("grow_objects: " + std::to_string(poses_world.size()) + " poses for " +
+                           std::to_string(segmentation.objects.size()) + " observations");
+  }
   check(frame, normals, segmentation);
   OrganizedCloud const& cloud = frame.cloud_camera;
   LabelMap& labels = segmentation.labels;
-  std::vector<Region> const regions = regions_of(cloud, normals, segmentation, shapes, config);
+  std::vector<Region> const regions =
+      regions_of(cloud, normals, segmentation, poses_world, shapes, config);
   for (Region const& region : regions) {
     LabelCode const own = segmentation.objects[region.observation].label;
     for (std::size_t const i : region.pixels.seeds) {
