@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "geometry/surface_points.hpp"
@@ -40,7 +41,8 @@ KnownSurface surface_of(ObjectModel const& model) {
   auto const count = static_cast<double>(points_at(model, coarse_m).size());
   // The number of points goes with the inverse square of their spacing.
   double const spacing_m = coarse_m * std::sqrt(count / kPoints);
-  return {points_at(model, spacing_m), static_cast<float>(spacing_m), radius_m, model.symmetry};
+  return {points_at(model, spacing_m), static_cast<float>(spacing_m), radius_m,
+          std::make_shared<ObjectShape const>(model), model.symmetry};
 }
 
 }  // namespace

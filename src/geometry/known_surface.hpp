@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/object_model.hpp"
+#include "geometry/object_shape.hpp"
 
 namespace credo {
 
@@ -16,6 +18,8 @@ struct KnownSurface {
   float spacing_m = 0.0F;
   /// Of the sphere about the model's origin that holds it.
   double radius_m = 0.0;
+  /// The same surface, to be asked for distances; never null.
+  std::shared_ptr<ObjectShape const> shape;
   /// Which other poses would look the same.
   Symmetry symmetry;
 };

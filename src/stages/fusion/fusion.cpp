@@ -43,8 +43,9 @@ BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConf
   belief.objects = fused_objects(std::move(belief.objects), segmentation, change, surfaces, config);
   fuse_surroundings(belief, segmentation, config);
   FusedStuff stuff{std::move(belief.stuff), belief.next_stuff_id};
-  stuff = config.visibility ? fused_items(std::move(stuff), segmentation, config)
-                            : fused_stuff(std::move(stuff), segmentation.stuff, change, config);
+  stuff = config.visibility
+              ? fused_items(std::move(stuff), segmentation, KnownPlaces(belief, surfaces), config)
+              : fused_stuff(std::move(stuff), segmentation.stuff, change, config);
   belief.stuff = std::move(stuff.stuff);
   belief.next_stuff_id = stuff.next_id;
   return belief;

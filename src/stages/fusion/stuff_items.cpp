@@ -40,9 +40,11 @@ constexpr double kExplained = 0.7;
 
 class Fusing {
 public:
-  Fusing(FusedStuff known, Segmentation const& segmentation, FusionConfig const& config)
+  Fusing(FusedStuff known, Segmentation const& segmentation, KnownPlaces const& places,
+         FusionConfig const& config)
       : known_(std::move(known)),
         segmentation_(segmentation),
+        places_(places),
         config_(config),
         now_{segmentation.stamp_ns, segmentation.T_world_camera.translation()},
         looks_(segmentation.sight, segmentation.T_world_camera, known_.stuff),
@@ -243,7 +245,18 @@ private:
       auto const share = std::ranges::find(shares, label, &ClusterShare::label);
       explained += share != shares.end() && share->agreement() >= kLeastAgreement ? 1U : 0U;
     }
-    return static_cast<double>(explained) <= kExplained * static_cast<double>(seen.blocks.size());
+    return static_cast<double>(explained) <= kExplained * static_cast<double>(seen.blocks.size()) &&
+           !is_at_known_place(seen);
+  }
+
+  [[nodiscard]] bool is_at_known_place(SeenCluster const& seen) const {
+    if (seen.lies_on >= 0) {
+      return false;
+    }
+    auto const at_known = std::ranges::count_if(seen.points_world, [&](Eigen::Vector3f const& p) {
+      return places_.holds(p.cast<double>());
+    });
+    return static_cast<double>(at_known) > kExplained * static_cast<double>(seen.blocks.size());
   }
 
   /// What shows again and again in another thing's clusters is one with it; what shows as floor,
@@ -365,6 +378,7 @@ private:
 
   FusedStuff known_;
   Segmentation const& segmentation_;
+  KnownPlaces const& places_;
   FusionConfig const& config_;
   Look now_;
   StuffLooks looks_;
@@ -380,8 +394,8 @@ private:
 }  // namespace
 
 FusedStuff fused_items(FusedStuff known, Segmentation const& segmentation,
-                       FusionConfig const& config) {
-  return Fusing(std::move(known), segmentation, config).run();
+                       KnownPlaces const& places, FusionConfig const& config) {
+  return Fusing(std::move(known), segmentation, places, config).run();
 }
 
 }  // namespace credo

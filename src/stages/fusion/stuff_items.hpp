@@ -2,6 +2,7 @@
 
 #include "core/segmentation.hpp"
 #include "stages/fusion/fusion.hpp"
+#include "stages/fusion/known_places.hpp"
 #include "stages/fusion/stuff.hpp"
 
 namespace credo {
@@ -13,10 +14,11 @@ namespace credo {
 /// view. Clusters go to the thing with which they share most, many to one thing where it is seen in
 /// pieces. What agrees makes a thing more probable, what is seen through less; where too little of
 /// it is seen either way, its log-odds stay what they were, to the bit. Frames that repeat each
-/// other count once (novelty).
+/// other count once (novelty). Clusters at known places are no new things, unless they lie on
+/// another.
 ///
 /// Wants segmentation.sight; without one nothing is seen, and nothing changes.
 [[nodiscard]] FusedStuff fused_items(FusedStuff known, Segmentation const& segmentation,
-                                     FusionConfig const& config);
+                                     KnownPlaces const& places, FusionConfig const& config);
 
 }  // namespace credo

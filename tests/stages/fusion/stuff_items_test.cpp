@@ -29,7 +29,8 @@ public:
   FusedStuff const& show(View view, int times = 1) {
     for (int k = 0; k < times; ++k) {
       view.stamp_ns = kFrame_ns * frame_++;
-      stuff_ = fused_items(std::move(stuff_), test::segmentation_of(view), config_);
+      stuff_ =
+          fused_items(std::move(stuff_), test::segmentation_of(view), KnownPlaces({}, {}), config_);
     }
     return stuff_;
   }
@@ -306,7 +307,7 @@ TEST(StuffItems, WithoutASightNothingChanges) {
   FusedStuff const before = room.show({.boards = {{kFirst}}}, 3);
   Segmentation frame = test::segmentation_of({.boards = {{kFirst}}});
   frame.sight = {};
-  FusedStuff const after = fused_items(before, frame, {});
+  FusedStuff const after = fused_items(before, frame, KnownPlaces({}, {}), {});
   ASSERT_EQ(after.stuff.size(), 1U);
   EXPECT_EQ(bits(after.stuff[0].log_odds), bits(before.stuff[0].log_odds));
 }

@@ -1,0 +1,66 @@
+#include "stages/fusion/known_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace credo {
+namespace {
+
+/// How far beyond its ends a wall may go on.
+constexpr double kBeyondEnd_m = 0.1;
+
+/// An object whose place is not known as well as that explains nothing.
+constexpr double kKnown_m = 0.02;
+
+/// Of the place, along the direction in which it is known least.
+double deviation_m(PoseDistribution const& pose, double radius_m) {
+  double const turned_m2 =
+      pose.covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff() * radius_m * radius_m;
+  double const shifted_m2 = pose.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff();
+  return std::sqrt(std::max(0.0, shifted_m2 + turned_m2));
+}
+
+}  // namespace
+
+KnownPlaces::KnownPlaces(BeliefState const& belief, KnownSurfaces const& surfaces)
+    : camera_world_(belief.T_world_camera.translation()) {
+  for (WallBelief const& wall : belief.walls) {
+    Eigen::Vector2d const along = wall.segment_end_m - wall.segment_start_m;
+    if (wall.log_odds > 0.0 && along.norm() > 0.0) {
+      walls_.push_back({wall.plane_world, wall.segment_start_m, along.normalized(), along.norm()});
+    }
+  }
+  for (ObjectBelief const& object : belief.objects) {
+    auto const surface = surfaces.find(object.type);
+    if (surface == surfaces.end() || object.log_odds <= 0.0 || object.evidence == Evidence::kSeen) {
+      continue;
+    }
+    double const radius_m = surface->second.radius_m;
+    double const sigma_m = deviation_m(object.pose_world, radius_m);
+    if (sigma_m <= kKnown_m) {
+      objects_.push_back(
+          {surface->second.shape.get(), object.pose_world.mean.inverse(), sigma_m, radius_m});
+    }
+  }
+}
+
+bool KnownPlaces::holds(Eigen::Vector3d const& p_world) const {
+  constexpr double kNearest_m = 0.015;
+  constexpr double kPerSquareMetre = 0.0015;
+  double const noise_m = kNearest_m + kPerSquareMetre * (p_world - camera_world_).squaredNorm();
+  for (Strip const& wall : walls_) {
+    double const along_m = wall.direction.dot(p_world.head<2>() - wall.start_m);
+    if (std::abs(wall.plane_world.signed_distance_m(p_world)) < noise_m &&
+        along_m > -kBeyondEnd_m && along_m < wall.length_m + kBeyondEnd_m) {
+      return true;
+    }
+  }
+  return std::ranges::any_of(objects_, [&](Place const& place) {
+    double const tolerance_m = noise_m + 2.0 * place.deviation_m;
+    Eigen::Vector3d const p_object = place.T_object_world * p_world;
+    return p_object.norm() < place.radius_m + tolerance_m &&
+           std::abs(place.shape->distance_to(p_object).distance_m) < tolerance_m;
+  });
+}
+
+}  // namespace credo

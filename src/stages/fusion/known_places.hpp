@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/belief.hpp"
+#include "geometry/known_surface.hpp"
+
+namespace credo {
+
+/// Where believed walls and known objects are: what a frame shows there is nothing new, though no
+/// plane was laid through it and no detector found it, as of a table that reaches into view by a
+/// corner.
+///
+/// Objects count that the last frame did not find: of one that was found all has been taken out of
+/// the frame already, and what is left beside it may lie on it. And those whose place is known to 2
+/// cm.
+class KnownPlaces {
+public:
+  /// `belief` as it is after the frame but for stuff; `surfaces` must outlive it.
+  KnownPlaces(BeliefState const& belief, KnownSurfaces const& surfaces);
+
+  /// Whether a wall or an object is within 1.5 cm + 1.5 mm/m^2 times the squared distance from the
+  /// camera (a Kinect's noise) and two deviations of the object's place.
+  [[nodiscard]] bool holds(Eigen::Vector3d const& p_world) const;
+
+private:
+  struct Strip {
+    Plane plane_world;
+    Eigen::Vector2d start_m;
+    Eigen::Vector2d direction;
+    double length_m = 0.0;
+  };
+  struct Place {
+    ObjectShape const* shape = nullptr;
+    Se3 T_object_world;
+    double deviation_m = 0.0;
+    double radius_m = 0.0;
+  };
+
+  Eigen::Vector3d camera_world_;
+  std::vector<Strip> walls_;
+  std::vector<Place> objects_;
+};
+
+}  // namespace credo
