@@ -44,19 +44,24 @@ KnownPlaces::KnownPlaces(BeliefState const& belief, KnownSurfaces const& surface
   }
 }
 
-bool KnownPlaces::holds(Eigen::Vector3d const& p_world) const {
+double KnownPlaces::noise_m(Eigen::Vector3d const& p_world) const {
   constexpr double kNearest_m = 0.015;
   constexpr double kPerSquareMetre = 0.0015;
-  double const noise_m = kNearest_m + kPerSquareMetre * (p_world - camera_world_).squaredNorm();
-  for (Strip const& wall : walls_) {
+  return kNearest_m + kPerSquareMetre * (p_world - camera_world_).squaredNorm();
+}
+
+bool KnownPlaces::has_wall_at(Eigen::Vector3d const& p_world) const {
+  double const tolerance_m = noise_m(p_world);
+  return std::ranges::any_of(walls_, [&](Strip const& wall) {
     double const along_m = wall.direction.dot(p_world.head<2>() - wall.start_m);
-    if (std::abs(wall.plane_world.signed_distance_m(p_world)) < noise_m &&
-        along_m > -kBeyondEnd_m && along_m < wall.length_m + kBeyondEnd_m) {
-      return true;
-    }
-  }
+    return std::abs(wall.plane_world.signed_distance_m(p_world)) < tolerance_m &&
+           along_m > -kBeyondEnd_m && along_m < wall.length_m + kBeyondEnd_m;
+  });
+}
+
+bool KnownPlaces::has_object_at(Eigen::Vector3d const& p_world) const {
   return std::ranges::any_of(objects_, [&](Place const& place) {
-    double const tolerance_m = noise_m + 2.0 * place.deviation_m;
+    double const tolerance_m = noise_m(p_world) + 2.0 * place.deviation_m;
     Eigen::Vector3d const p_object = place.T_object_world * p_world;
     return p_object.norm() < place.radius_m + tolerance_m &&
            std::abs(place.shape->distance_to(p_object).distance_m) < tolerance_m;

@@ -20,9 +20,11 @@ public:
   /// `belief` as it is after the frame but for stuff; `surfaces` must outlive it.
   KnownPlaces(BeliefState const& belief, KnownSurfaces const& surfaces);
 
-  /// Whether a wall or an object is within 1.5 cm + 1.5 mm/m^2 times the squared distance from the
-  /// camera (a Kinect's noise) and two deviations of the object's place.
-  [[nodiscard]] bool holds(Eigen::Vector3d const& p_world) const;
+  /// Whether a wall is within 1.5 cm + 1.5 mm/m^2 times the squared distance from the camera (a
+  /// Kinect's noise), no more than 10 cm beyond its ends.
+  [[nodiscard]] bool has_wall_at(Eigen::Vector3d const& p_world) const;
+  /// Whether an object's surface is as near, and two deviations of its place more.
+  [[nodiscard]] bool has_object_at(Eigen::Vector3d const& p_world) const;
 
 private:
   struct Strip {
@@ -37,6 +39,8 @@ private:
     double deviation_m = 0.0;
     double radius_m = 0.0;
   };
+
+  [[nodiscard]] double noise_m(Eigen::Vector3d const& p_world) const;
 
   Eigen::Vector3d camera_world_;
   std::vector<Strip> walls_;

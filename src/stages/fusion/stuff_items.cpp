@@ -250,11 +250,11 @@ private:
   }
 
   [[nodiscard]] bool is_at_known_place(SeenCluster const& seen) const {
-    if (seen.lies_on >= 0) {
-      return false;
-    }
+    // What lies on a table is none of it, however flat; beside a cabinet a wall seems to lie on it.
+    bool const may_be_object = seen.lies_on < 0;
     auto const at_known = std::ranges::count_if(seen.points_world, [&](Eigen::Vector3f const& p) {
-      return places_.holds(p.cast<double>());
+      return places_.has_wall_at(p.cast<double>()) ||
+             (may_be_object && places_.has_object_at(p.cast<double>()));
     });
     return static_cast<double>(at_known) > kExplained * static_cast<double>(seen.blocks.size());
   }
