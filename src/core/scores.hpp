@@ -5,6 +5,9 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "core/frame.hpp"
 
 namespace credo {
 
@@ -88,6 +91,15 @@ struct StuffScores {
   std::uint64_t item_frames = 0;
 };
 
+/// A piece of stuff in the frame in which it comes up.
+struct Birth {
+  FrameIndex frame{0};
+  std::uint32_t stuff_id = 0;
+  /// In blocks of the image, 160 to a row (geometry/thickness.hpp).
+  double thickness_blocks = 0.0;
+  bool is_there = false;
+};
+
 struct Scores {
   std::uint64_t frames = 0;
   SegmentationScores segmentation;
@@ -97,6 +109,7 @@ struct Scores {
   std::optional<ExistenceScores> existence;
   ChangeScores change;
   std::optional<StuffScores> stuff;
+  std::vector<Birth> births;
 };
 
 }  // namespace credo

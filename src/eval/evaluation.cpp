@@ -102,6 +102,7 @@ void Evaluation::add_images(EvalFrame const& frame,
   has_labels_ = true;
   LabelOverlap const overlap(*frame.labels, *frame.true_labels);
   bodies_.update(*frame.belief, frame.truth, overlap);
+  births_.add(*frame.belief, *frame.labels, bodies_, frame.truth, *told_);
   add_segments(frame, overlap);
   identity_.add(*frame.belief, overlap,
                 bodies_to_follow(frame.truth, *told_, overlap, frame.labels->size()));
@@ -154,6 +155,7 @@ Scores Evaluation::scores() const {
   scores.change = change_.scores();
   if (has_labels_) {
     scores.stuff = identity_.scores();
+    scores.births = births_.births();
   }
   return scores;
 }

@@ -12,6 +12,7 @@
 #include "core/label.hpp"
 #include "core/scores.hpp"
 #include "core/truth.hpp"
+#include "eval/birth_scorer.hpp"
 #include "eval/change_scorer.hpp"
 #include "eval/existence_scorer.hpp"
 #include "eval/identity_scorer.hpp"
@@ -86,6 +87,7 @@ private:
   ExistenceScorer existence_;
   ChangeScorer change_;
   IdentityScorer identity_;
+  BirthScorer births_;
   bool has_labels_ = false;
   std::vector<FrameScores> trace_;
 };

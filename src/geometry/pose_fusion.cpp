@@ -199,4 +199,10 @@ PoseDistribution updated_pose(PoseDistribution const& expected, PoseDistribution
   return {mean, symmetric(to_frame * covariance * to_frame.transpose())};
 }
 
+double largest_deviation_m(PoseDistribution const& pose, double radius_m) {
+  double const shifted_m2 = pose.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff();
+  double const turned_rad2 = pose.covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff();
+  return std::sqrt(std::max(0.0, shifted_m2 + turned_rad2 * radius_m * radius_m));
+}
+
 }  // namespace credo

@@ -28,6 +28,10 @@ struct PoseMatch {
 [[nodiscard]] PoseMatch match_pose(PoseDistribution const& expected,
                                    PoseDistribution const& detected, Symmetry const& symmetry);
 
+/// One deviation of the place of a point `radius_m` from the origin of the pose, along the
+/// direction in which it is known least, turn and shift taken at their largest.
+[[nodiscard]] double largest_deviation_m(PoseDistribution const& pose, double radius_m);
+
 /// How much of a detection to take.
 struct PoseUpdate {
   /// In (0, 1]: the part of the detection that is news; its information counts so much.

@@ -22,16 +22,13 @@ Segmentation begin_segmentation(Frame const& frame, WorldLevel const& level,
   return segmentation;
 }
 
-/// Where the observed objects most likely are: as they were detected, or as belief and detection
-/// together tell.
-std::vector<Se3> observed_poses(Segmentation const& segmentation, BeliefState const& seen,
-                                bool from_belief) {
-  std::vector<Se3> poses_world;
+/// Where the observed objects most likely are: as belief and detection together tell.
+std::vector<PoseDistribution> likeliest_poses(Segmentation const& segmentation,
+                                              BeliefState const& seen) {
+  std::vector<PoseDistribution> poses_world;
   for (ObjectObservation const& object : segmentation.objects) {
-    PoseDistribution const& expected = seen.objects[object.object].pose_world;
-    poses_world.push_back(from_belief
-                              ? updated_pose(expected, object.pose_world, object.symmetry).mean
-                              : object.pose_world.mean);
+    poses_world.push_back(
+        updated_pose(seen.objects[object.object].pose_world, object.pose_world, object.symmetry));
   }
   return poses_world;
 }
@@ -47,8 +44,11 @@ Segmentation find_objects(Frame const& frame, NormalMap const& normals, Segmenta
       known.detector->detect(frame, detection_requests(seen, segmentation.T_world_camera));
   segmentation =
       match_detections(std::move(segmentation), seen, detections, known.models, config.detection);
-  std::vector<Se3> const poses_world =
-      observed_poses(segmentation, seen, config.region_growing.from_belief);
+  if (!config.region_growing.from_belief) {
+    return grow_objects(frame, normals, std::move(segmentation), known.shapes,
+                        config.region_growing);
+  }
+  std::vector<PoseDistribution> const poses_world = likeliest_poses(segmentation, seen);
   return grow_objects(frame, normals, std::move(segmentation), poses_world, known.shapes,
                       config.region_growing);
 }

@@ -73,6 +73,13 @@ std::string scores_json(Scores const& scores) {
                      {"fragmentations", scores.stuff->fragmentations},
                      {"item_frames", scores.stuff->item_frames}};
   }
+  json["births"] = Json::array();
+  for (Birth const& birth : scores.births) {
+    json["births"].push_back({{"frame", number(birth.frame)},
+                              {"id", birth.stuff_id},
+                              {"thickness_blocks", birth.thickness_blocks},
+                              {"is_there", birth.is_there}});
+  }
   return json.dump(2);
 }
 

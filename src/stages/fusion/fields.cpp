@@ -148,6 +148,21 @@ FieldList fields(StuffFusionConfig& config) {
   };
 }
 
+FieldList fields(BirthConfig& config) {
+  return {
+      {"log_odds",
+       &config.log_odds,
+       {-10, 10},
+       "",
+       "log-odds of what is as thick as one block of the sight, a 160th of the image's width"},
+      {"per_log_thickness",
+       &config.per_log_thickness,
+       {0, 10},
+       "",
+       "added for each time that it is e times as thick"},
+  };
+}
+
 FieldList fields(FusionConfig& config) {
   return {
       {"visibility",
@@ -159,7 +174,7 @@ FieldList fields(FusionConfig& config) {
       {"prior_probability", &config.prior_probability, kProbability, "",
        "that a known object is there; without visibility also what is seen for the first time"},
       {"new_probability", &config.new_probability, kProbability, "",
-       "with visibility: that what is seen for the first time is there"},
+       "with visibility: that a floor or a wall seen for the first time is there"},
       section("existence", fields(config.existence),
               "how observations move the probability that a thing is there"),
       section("objects", fields(config.objects),
@@ -167,6 +182,8 @@ FieldList fields(FusionConfig& config) {
       section("floor", fields(config.floor), "how observations of the floor add up"),
       section("walls", fields(config.walls), "when two walls are one"),
       section("stuff", fields(config.stuff), "when a cluster is a thing seen before"),
+      section("births", fields(config.births),
+              "with visibility: how likely a cluster that nothing explains is a thing"),
   };
 }
 

@@ -98,19 +98,33 @@ struct StuffFusionConfig {
 };
 FieldList fields(StuffFusionConfig& config);
 
+/// How likely a cluster is a thing of its own that nothing explains, when it is seen for the first
+/// time, with the rule that knows what it could not see: log-odds that grow with the logarithm of
+/// its thickness (thickness.hpp) in the blocks of the sight, about 160 to a row. Fitted on
+/// simulated scenes (docs/belief.md).
+struct BirthConfig {
+  double log_odds = -0.15;
+  double per_log_thickness = 1.8;
+};
+FieldList fields(BirthConfig& config);
+[[nodiscard]] double birth_log_odds(double thickness_blocks, BirthConfig const& config,
+                                    ExistenceConfig const& existence);
+
 struct FusionConfig {
   /// The rule that knows what it could not see (stuff_items.hpp, objects.hpp, surroundings.hpp);
   /// else the thesis'.
   bool visibility = true;
   /// That a known object is there; with the thesis' rule also what is seen for the first time.
   double prior_probability = 0.99;
-  /// That what is seen for the first time is there, with the rule that knows what it could not see.
+  /// That a floor or a wall seen for the first time is there, with the rule that knows what it
+  /// could not see.
   double new_probability = 0.7;
   ExistenceConfig existence;
   ObjectFusionConfig objects;
   FloorFusionConfig floor;
   WallFusionConfig walls;
   StuffFusionConfig stuff;
+  BirthConfig births;
 };
 FieldList fields(FusionConfig& config);
 

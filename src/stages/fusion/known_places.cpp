@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/pose_fusion.hpp"
+
 namespace credo {
 namespace {
 
@@ -11,14 +13,6 @@ constexpr double kBeyondEnd_m = 0.1;
 
 /// An object whose place is not known as well as that explains nothing.
 constexpr double kKnown_m = 0.02;
-
-/// Of the place, along the direction in which it is known least.
-double deviation_m(PoseDistribution const& pose, double radius_m) {
-  double const turned_m2 =
-      pose.covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff() * radius_m * radius_m;
-  double const shifted_m2 = pose.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff();
-  return std::sqrt(std::max(0.0, shifted_m2 + turned_m2));
-}
 
 }  // namespace
 
@@ -36,7 +30,7 @@ KnownPlaces::KnownPlaces(BeliefState const& belief, KnownSurfaces const& surface
       continue;
     }
     double const radius_m = surface->second.radius_m;
-    double const sigma_m = deviation_m(object.pose_world, radius_m);
+    double const sigma_m = largest_deviation_m(object.pose_world, radius_m);
     if (sigma_m <= kKnown_m) {
       objects_.push_back(
           {surface->second.shape.get(), object.pose_world.mean.inverse(), sigma_m, radius_m});

@@ -212,7 +212,8 @@ private:
       item.evidence = Evidence::kSeen;
       item.verdict = Verdict::kSeen;
       item.last_look = now_;
-      item.log_odds = std::max(item.log_odds, log_odds_of(config_.new_probability));
+      item.log_odds = std::max(
+          item.log_odds, birth_log_odds(seen.thickness_blocks, config_.births, config_.existence));
       ++item.history_count;
       begin_model(item, seen);
       given_to_[found.cluster] = static_cast<std::int32_t>(found.item);
@@ -355,7 +356,7 @@ private:
   void add_new() {
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
       if (is_unexplained(c)) {
-        add(c, log_odds_of(config_.new_probability));
+        add(c, birth_log_odds(clusters_[c].thickness_blocks, config_.births, config_.existence));
       }
     }
   }

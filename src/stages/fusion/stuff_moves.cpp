@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "geometry/icp.hpp"
+#include "geometry/thickness.hpp"
 
 namespace credo {
 namespace {
@@ -85,6 +86,9 @@ std::vector<SeenCluster> clusters_of(Segmentation const& segmentation) {
     if (cluster.lies_on) {
       clusters[c].lies_on = static_cast<std::int32_t>(*cluster.lies_on) - kFirstStuff;
     }
+  }
+  for (auto const& [label, thickness] : thickness_px(sight.labels)) {
+    clusters.at(label - std::size_t{kFirstStuff}).thickness_blocks = thickness;
   }
   Eigen::Matrix3f const R = segmentation.T_world_camera.rotation().toRotationMatrix().cast<float>();
   Eigen::Vector3f const t = segmentation.T_world_camera.translation().cast<float>();

@@ -18,6 +18,8 @@ struct SeenCluster {
   std::vector<Eigen::Vector3f> points_world;
   /// Of the surface that is seen, as if it faced the camera.
   double area_m2 = 0.0;
+  /// Of the cluster in blocks (thickness.hpp).
+  double thickness_blocks = 0.0;
   /// The cluster that it lies on (StuffCluster), by its place; -1 for none.
   std::int32_t lies_on = -1;
 };

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/pose_fusion.hpp"
 #include "geometry/reachability.hpp"
 #include "stages/region_growing/object_seeds.hpp"
 
@@ -29,8 +30,21 @@ void check(Frame const& frame, NormalMap const& normals, Segmentation const& seg
   }
 }
 
+/// With limits for an object that may be off.
+RegionGrowingConfig widened(RegionGrowingConfig config, PoseDistribution const& pose,
+                            ObjectShape const& shape) {
+  double const radius_m =
+      shape.bounds().min().cwiseAbs().cwiseMax(shape.bounds().max().cwiseAbs()).norm();
+  double const off_m = largest_deviation_m(pose, radius_m);
+  config.max_distance_m += off_m;
+  config.seed_distance_m += off_m;
+  config.open_mesh_distance_m += off_m;
+  return config;
+}
+
 std::vector<Region> regions_of(OrganizedCloud const& cloud, NormalMap const& normals,
-                               Segmentation const& segmentation, std::span<Se3 const> poses_world,
+                               Segmentation const& segmentation,
+                               std::span<PoseDistribution const> poses_world,
                                ObjectShapes const& shapes, RegionGrowingConfig const& config) {
   std::vector<Region> regions;
   for (std::size_t i = 0; i < segmentation.objects.size(); ++i) {
@@ -40,8 +54,9 @@ std::vector<Region> regions_of(OrganizedCloud const& cloud, NormalMap const& nor
       continue;
     }
     PlacedShape const placed{&shape->second,
-                             poses_world[i].inverse() * segmentation.T_world_camera};
-    regions.push_back({i, object_pixels(cloud, normals, placed, config)});
+                             poses_world[i].mean.inverse() * segmentation.T_world_camera};
+    regions.push_back(
+        {i, object_pixels(cloud, normals, placed, widened(config, poses_world[i], shape->second))});
   }
   return regions;
 }
@@ -180,15 +195,15 @@ FieldList fields(RegionGrowingConfig& config) {
 
 Segmentation grow_objects(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
                           ObjectShapes const& shapes, RegionGrowingConfig const& config) {
-  std::vector<Se3> detected;
+  std::vector<PoseDistribution> detected;
   for (ObjectObservation const& object : segmentation.objects) {
-    detected.push_back(object.pose_world.mean);
+    detected.push_back({object.pose_world.mean, Matrix6d::Zero()});
   }
   return grow_objects(frame, normals, std::move(segmentation), detected, shapes, config);
 }
 
 Segmentation grow_objects(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
-                          std::span<Se3 const> poses_world, ObjectShapes const& shapes,
+                          std::span<PoseDistribution const> poses_world, ObjectShapes const& shapes,
                           RegionGrowingConfig const& config) {
   if (poses_world.size() != segmentation.objects.size()) {
     throw std::logic_error("grow_objects: " + std::to_string(poses_world.size()) + " poses for " +

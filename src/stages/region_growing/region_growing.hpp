@@ -56,9 +56,11 @@ FieldList fields(RegionGrowingConfig& config);
                                         RegionGrowingConfig const& config);
 
 /// The same from where the objects are said to be instead of where they were detected: one pose an
-/// observation.
+/// observation. By as much as its farthest point may be off (one deviation) the limits of distance
+/// are wider.
 [[nodiscard]] Segmentation grow_objects(Frame const& frame, NormalMap const& normals,
-                                        Segmentation segmentation, std::span<Se3 const> poses_world,
+                                        Segmentation segmentation,
+                                        std::span<PoseDistribution const> poses_world,
                                         ObjectShapes const& shapes,
                                         RegionGrowingConfig const& config);
 
