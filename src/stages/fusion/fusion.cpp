@@ -2,22 +2,28 @@
 
 #include <utility>
 
+#include "stages/fusion/drift.hpp"
 #include "stages/fusion/existence.hpp"
 #include "stages/fusion/floor.hpp"
+#include "stages/fusion/moved_segmentation.hpp"
 #include "stages/fusion/objects.hpp"
 #include "stages/fusion/stuff.hpp"
 #include "stages/fusion/stuff_items.hpp"
 #include "stages/fusion/walls.hpp"
 
 namespace credo {
+namespace {
 
-BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConfig const& config) {
+/// Of a frame whose pose is right.
+BeliefState fuse_in_place(BeliefState prior, Segmentation const& segmentation,
+                          FusionConfig const& config) {
   ViewChange const change = view_change(prior, segmentation);
   BeliefState belief = std::move(prior);
   belief.frame = segmentation.frame;
   belief.stamp_ns = segmentation.stamp_ns;
   belief.segmented_with = segmentation.segmented_with;
   belief.T_world_camera = segmentation.T_world_camera;
+  belief.T_world_told = segmentation.T_world_told;
   belief.objects = fused_objects(std::move(belief.objects), segmentation, change, config);
   belief.floor = fused_floor(std::move(belief.floor), segmentation.floor, config.floor);
   FusedWalls walls =
@@ -31,6 +37,18 @@ BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConf
   belief.stuff = std::move(stuff.stuff);
   belief.next_stuff_id = stuff.next_id;
   return belief;
+}
+
+}  // namespace
+
+BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConfig const& config) {
+  if (!config.drift.enabled) {
+    return fuse_in_place(std::move(prior), segmentation, config);
+  }
+  Se3 const T_world_told = tracked_drift(prior, segmentation, config.drift);
+  return fuse_in_place(std::move(prior),
+                       moved(segmentation, T_world_told * segmentation.T_world_told.inverse()),
+                       config);
 }
 
 }  // namespace credo

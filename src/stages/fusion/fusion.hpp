@@ -98,10 +98,25 @@ struct StuffFusionConfig {
 };
 FieldList fields(StuffFusionConfig& config);
 
+/// How the poses that frames tell are corrected against what is believed (drift.hpp; T: not at
+/// all).
+struct DriftConfig {
+  bool enabled = false;
+  /// How much the correction is expected to change from frame to frame, standard deviations along
+  /// and about each axis.
+  double step_m = 0.005;
+  double step_rad = 0.005;
+  /// How far from what is told it may take the camera.
+  double max_m = 0.3;
+  double max_rad = 0.15;
+};
+FieldList fields(DriftConfig& config);
+
 struct FusionConfig {
   /// That a known object, or stuff seen for the first time, is there.
   double prior_probability = 0.99;
   ExistenceConfig existence;
+  DriftConfig drift;
   ObjectFusionConfig objects;
   FloorFusionConfig floor;
   WallFusionConfig walls;
