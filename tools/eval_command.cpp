@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "io/intrinsics.hpp"
 #include "io/pcd.hpp"
 #include "io/scores_json.hpp"
+#include "io/trajectory.hpp"
 #include "io/truth_json.hpp"
 #include "model_files.hpp"
 #include "score_table.hpp"
@@ -79,6 +81,12 @@ void must_have_one_size(LabelMap const& labels, LabelMap const& truth, EvalComma
   }
 }
 
+/// The camera's poses as the simulation's sensor told them, in the world of the truth.
+std::optional<Trajectory> told_poses(fs::path const& folder) {
+  fs::path const path = folder / "groundtruth.txt";
+  return fs::is_regular_file(path) ? std::optional<Trajectory>(path) : std::nullopt;
+}
+
 void show_progress(std::size_t done, std::size_t all) {
   if (isatty(STDERR_FILENO) != 0) {
     std::cerr << fmt::format("\rframe {}/{}{}", done, all, done == all ? "\n" : "") << std::flush;
@@ -97,9 +105,20 @@ std::vector<BeliefSummary> beliefs_of(fs::path const& run) {
   return beliefs;
 }
 
+Se3 camera_in(BeliefSummary const& belief, fs::path const& run) {
+  try {
+    return Se3::from_matrix(belief.T_world_camera);
+  } catch (std::invalid_argument const& error) {
+    throw InputError(fmt::format("{}: frame {}: T_world_camera is no pose: {}",
+                                 (run / "belief.jsonl").string(), number(belief.frame),
+                                 error.what()));
+  }
+}
+
 /// Throws where the beliefs cannot be about what the truth is about.
 void must_fit(std::vector<BeliefSummary> const& beliefs, std::vector<FrameTruth> const& truth,
-              fs::path const& folder) {
+              EvalCommand const& command) {
+  fs::path const& folder = command.truth;
   std::string const what = folder.string() + ": the truth does not fit the run: ";
   std::size_t t = 0;
   for (BeliefSummary const& belief : beliefs) {
@@ -113,11 +132,12 @@ void must_fit(std::vector<BeliefSummary> const& beliefs, std::vector<FrameTruth>
       throw InputError(fmt::format("{}frame {} is at {} ns, the run's at {} ns", what,
                                    number(belief.frame), truth[t].stamp_ns, belief.stamp_ns));
     }
+    Se3 const camera = camera_in(belief, command.run);
     if (&belief != &beliefs.front()) {
       continue;
     }
     // Later told poses may have drifted.
-    Se3 const error = truth[t].T_world_camera.inverse() * Se3::from_matrix(belief.T_world_camera);
+    Se3 const error = truth[t].T_world_camera.inverse() * camera;
     double const angle_deg =
         error.rotation().angularDistance(Eigen::Quaterniond::Identity()) * 180.0 / std::numbers::pi;
     if (error.translation().norm() > 0.25 || angle_deg > 10.0) {
@@ -161,7 +181,7 @@ std::optional<CameraIntrinsics> intrinsics_in(fs::path const& folder,
 
 Evaluated against_truth(EvalCommand const& command, std::vector<BeliefSummary> const& beliefs) {
   std::vector<FrameTruth> const truth = read_truth(command.truth / "truth.jsonl");
-  must_fit(beliefs, truth, command.truth);
+  must_fit(beliefs, truth, command);
   Evaluated result;
   TrueModels models = models_for(truth, command.truth, result.notes);
   Evaluation evaluation(std::move(models), intrinsics_in(command.truth, result.notes));
@@ -170,6 +190,7 @@ Evaluated against_truth(EvalCommand const& command, std::vector<BeliefSummary> c
         "the run has no label images (--dump labels): no scores of segments, "
         "stuff and change");
   }
+  std::optional<Trajectory> const told = told_poses(command.truth);
   std::size_t next = 0;
   for (FrameTruth const& frame : truth) {
     if (next == beliefs.size()) {
@@ -187,6 +208,7 @@ Evaluated against_truth(EvalCommand const& command, std::vector<BeliefSummary> c
     }
     pair.labels = labels ? &*labels : nullptr;
     pair.true_labels = true_labels ? &*true_labels : nullptr;
+    pair.T_world_told = told ? told->at(frame.frame, frame.stamp_ns) : std::nullopt;
     evaluation.add(pair);
     next += has_belief ? 1 : 0;
     show_progress(next, beliefs.size());

@@ -49,10 +49,18 @@ std::string stuff_row(StuffScores const& scores) {
                          scores.id_switches, scores.fragmentations, scores.item_frames));
 }
 
+std::string camera_row(std::string const& name, std::optional<CameraScores> const& scores) {
+  return row(name, scores ? fmt::format("{:.4f} m and {:.2f} degrees off, the way {:.4f} m",
+                                        scores->translation_m, scores->rotation_deg, scores->ate_m)
+                          : "-");
+}
+
 }  // namespace
 
 std::string score_table(Scores const& scores) {
   std::string table = row("frames", std::to_string(scores.frames));
+  table += camera_row("camera", scores.camera);
+  table += camera_row("  as told", scores.camera_told);
   table += scores.segmentation.instances
                ? overlap_row("segmentation", *scores.segmentation.instances)
                : row("segmentation", "-");

@@ -100,8 +100,22 @@ struct Birth {
   bool is_there = false;
 };
 
+/// Of the camera's poses.
+struct CameraScores {
+  /// Mean errors.
+  double translation_m = 0.0;
+  double rotation_deg = 0.0;
+  /// Of the way in itself: what is left of its positions' errors, root mean square, when the whole
+  /// way is laid on the true one by one rigid motion (absolute trajectory error, Sturm et al.
+  /// 2012).
+  double ate_m = 0.0;
+};
+
 struct Scores {
   std::uint64_t frames = 0;
+  /// As believed, and, where the truth's folder has them, as the source tells them.
+  std::optional<CameraScores> camera;
+  std::optional<CameraScores> camera_told;
   SegmentationScores segmentation;
   std::optional<FloorScores> floor;
   WallScores walls;

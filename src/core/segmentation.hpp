@@ -93,6 +93,9 @@ struct Segmentation {
   /// Frame of the belief that the detector was asked with; kPriorFrame for the prior.
   FrameIndex segmented_with = kPriorFrame;
   Se3 T_world_camera;
+  /// The correction that is in it already (BeliefState::T_world_told), of the belief that the frame
+  /// was segmented with.
+  Se3 T_world_told;
   /// False where no floor was found to level by: z = 0 then means nothing, and nothing is floor.
   bool floor_at_zero = true;
   LabelMap labels;

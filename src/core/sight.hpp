@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/cloud.hpp"
 #include "core/frame.hpp"
 #include "core/grid.hpp"
 #include "core/label.hpp"
@@ -20,6 +21,8 @@ struct Sight {
   Grid<float> nearest_m;
   /// Of each block's middle pixel.
   LabelMap labels;
+  /// Of each block's middle pixel; empty where nobody asks for them.
+  NormalMap normals_camera;
 
   /// The frame's pixel in the middle of a block.
   [[nodiscard]] Pixel middle_of(Pixel block) const {

@@ -66,6 +66,13 @@ void Evaluation::add_existence(EvalFrame const& frame,
   }
 }
 
+void Evaluation::add_camera(EvalFrame const& frame) {
+  camera_.add(Se3::from_matrix(frame.belief->T_world_camera), frame.truth.T_world_camera);
+  if (frame.T_world_told) {
+    camera_told_.add(*frame.T_world_told, frame.truth.T_world_camera);
+  }
+}
+
 void Evaluation::add_floor(EvalFrame const& frame) {
   auto const& believed = frame.belief->floor;
   auto const& floor = frame.truth.floor;
@@ -130,6 +137,7 @@ void Evaluation::add(EvalFrame const& frame) {
   trace_.push_back({});
   trace_.back().frame = frame.belief->frame;
   auto const match = told_->match(*frame.belief, frame.truth);
+  add_camera(frame);
   add_floor(frame);
   walls_.add(*frame.belief, frame.truth);
   add_poses(frame, match);
@@ -142,6 +150,8 @@ void Evaluation::add(EvalFrame const& frame) {
 Scores Evaluation::scores() const {
   Scores scores;
   scores.frames = trace_.size();
+  scores.camera = camera_.scores();
+  scores.camera_told = camera_told_.scores();
   scores.segmentation.instances = instances_.scores();
   scores.segmentation.iou = classes_.iou();
   if (auto const tilt_deg = floor_tilt_deg_.value()) {

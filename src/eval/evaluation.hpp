@@ -13,6 +13,7 @@
 #include "core/scores.hpp"
 #include "core/truth.hpp"
 #include "eval/birth_scorer.hpp"
+#include "eval/camera_scorer.hpp"
 #include "eval/change_scorer.hpp"
 #include "eval/existence_scorer.hpp"
 #include "eval/identity_scorer.hpp"
@@ -35,6 +36,8 @@ struct EvalFrame {
   /// Null where the run kept no label images.
   LabelMap const* labels = nullptr;
   LabelMap const* true_labels = nullptr;
+  /// What the camera's pose was told to be; none where nobody kept it.
+  std::optional<Se3> T_world_told = std::nullopt;
 };
 
 /// What the plots show of a frame.
@@ -71,6 +74,7 @@ private:
   void add_images(EvalFrame const& frame, std::vector<std::optional<std::size_t>> const& match);
   void forget_what_was_removed(FrameTruth const& truth);
   void add_existence(EvalFrame const& frame, std::vector<std::optional<std::size_t>> const& match);
+  void add_camera(EvalFrame const& frame);
   void add_floor(EvalFrame const& frame);
   void add_poses(EvalFrame const& frame, std::vector<std::optional<std::size_t>> const& match);
 
@@ -80,6 +84,8 @@ private:
   StuffBodies bodies_;
   OverlapScorer instances_;
   ClassScorer classes_;
+  CameraScorer camera_;
+  CameraScorer camera_told_;
   Mean floor_tilt_deg_;
   Mean floor_height_m_;
   WallScorer walls_;

@@ -73,4 +73,20 @@ Sight sight_of(Grid<float> const& depth_m, LabelMap const& labels,
   return sight;
 }
 
+NormalMap middle_normals(NormalMap const& normals_camera, Sight const& sight) {
+  int const width = sight.depth_m.width();
+  int const height = sight.depth_m.height();
+  if (normals_camera.width() < width * sight.block_px ||
+      normals_camera.height() < height * sight.block_px) {
+    throw std::logic_error("middle_normals: normals of a smaller image");
+  }
+  NormalMap middle(width, height);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      middle.set(middle.x.index({u, v}), normals_camera.at(sight.middle_of({u, v})));
+    }
+  }
+  return middle;
+}
+
 }  // namespace credo

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/cloud.hpp"
 #include "core/frame.hpp"
 #include "core/grid.hpp"
 #include "core/label.hpp"
@@ -12,5 +13,9 @@ namespace credo {
 /// none. Images of different sizes throw std::logic_error.
 [[nodiscard]] Sight sight_of(Grid<float> const& depth_m, LabelMap const& labels,
                              CameraIntrinsics const& intrinsics);
+
+/// Of each block's middle pixel. Normals of a smaller image than the sight's throw
+/// std::logic_error.
+[[nodiscard]] NormalMap middle_normals(NormalMap const& normals_camera, Sight const& sight);
 
 }  // namespace credo

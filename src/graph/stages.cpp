@@ -16,8 +16,9 @@ using KnownObjectsPtr = std::shared_ptr<KnownObjects const>;
 
 Segmentation begin_segmentation(Frame const& frame, WorldLevel const& level,
                                 BeliefState const& seen) {
-  Segmentation segmentation =
-      unassigned_segmentation(frame, level.T_world_source * frame.T_source_camera, seen.frame);
+  Segmentation segmentation = unassigned_segmentation(
+      frame, seen.T_world_told * level.T_world_source * frame.T_source_camera, seen.frame);
+  segmentation.T_world_told = seen.T_world_told;
   segmentation.floor_at_zero = level.floor_found;
   return segmentation;
 }
@@ -105,8 +106,11 @@ Stages make_stages(PipelineConfig const& config, WorldLevel const& level, Prior 
   };
   stages.clustering = [config](Frame const& frame, NormalMap const& normals, Segmentation so_far) {
     so_far = cluster_stuff(frame, normals, std::move(so_far), config.clustering);
-    if (config.fusion.visibility) {
+    if (config.fusion.visibility || config.fusion.drift.enabled) {
       so_far.sight = sight_of(frame.cloud_camera.z, so_far.labels, frame.intrinsics);
+    }
+    if (config.fusion.drift.enabled) {
+      so_far.sight.normals_camera = middle_normals(normals, so_far.sight);
     }
     return so_far;
   };

@@ -39,10 +39,19 @@ Json json_of(ExistenceScores const& scores) {
   return {{"ece", scores.ece}, {"brier", scores.brier}, {"reliability", std::move(bins)}};
 }
 
+Json json_of(std::optional<CameraScores> const& scores) {
+  return scores ? Json{{"translation_m", scores->translation_m},
+                       {"rotation_deg", scores->rotation_deg},
+                       {"ate_m", scores->ate_m}}
+                : Json{{"translation_m", nullptr}, {"rotation_deg", nullptr}, {"ate_m", nullptr}};
+}
+
 }  // namespace
 
 std::string scores_json(Scores const& scores) {
   Json json = {{"schema", 1}, {"frames", scores.frames}};
+  json["camera"] = json_of(scores.camera);
+  json["camera_told"] = json_of(scores.camera_told);
   json["segmentation"] = json_of(scores.segmentation);
   json["floor"] = {{"tilt_deg", nullptr}, {"height_m", nullptr}};
   if (scores.floor) {

@@ -258,6 +258,12 @@ TEST(EvalModels, ComeAlongWithTheTruth) {
   EXPECT_EQ(s["objects"]["adds_recall"], 1.0);
 }
 
+TEST_F(Eval, ACameraThatIsNowhereIsRefused) {
+  beliefs_[1]["T_world_camera"][0] = 2.0;
+  write_beliefs();
+  EXPECT_THAT(refusal(), HasSubstr("belief.jsonl: frame 1: T_world_camera is no pose"));
+}
+
 TEST(EvalRecordings, LabelFieldsOfTheTableTopsAreATruth) {
   CREDO_REQUIRE_RECORDING("osd");
   fs::path const osd = recordings() / "osd";

@@ -33,6 +33,7 @@ std::string changed_groups(Scores const& scores) {
     copy(only);
     changed += scores_json(only) != scores_json(perfect) ? name + " " : "";
   };
+  compare("camera", [&](Scores& s) { s.camera = scores.camera; });
   compare("segmentation", [&](Scores& s) { s.segmentation = scores.segmentation; });
   compare("floor", [&](Scores& s) { s.floor = scores.floor; });
   compare("walls", [&](Scores& s) { s.walls = scores.walls; });
@@ -111,6 +112,28 @@ TEST(Evaluation, PosesACentimetreOffMoveTheObjectsOnly) {
   EXPECT_NEAR(*scores.objects.nees, 0.25, 1e-9) << "half a standard deviation, squared";
   EXPECT_EQ(scores.objects.adds_recall, 1.0);
   EXPECT_EQ(scores.objects.precision, 1.0);
+}
+
+TEST(Evaluation, ACameraTwoCentimetresOffMovesTheCameraOnly) {
+  Scores const scores =
+      scores_of(spoilt([](RunFrame& frame) { frame.belief.T_world_camera(1, 3) += 0.02; }));
+  EXPECT_EQ(changed_groups(scores), "camera ");
+  EXPECT_NEAR(scores.camera->translation_m, 0.02, 1e-12);
+  EXPECT_NEAR(scores.camera->ate_m, 0.0, 1e-12) << "always by the same";
+  EXPECT_FALSE(scores.camera_told);
+}
+
+TEST(Evaluation, WhatIsToldOfTheCameraIsScoredBesideWhatIsBelieved) {
+  Evaluation evaluation(room_models(), kRoomCamera);
+  for (RunFrame const& frame : perfect_run(kFrames)) {
+    EvalFrame pair{frame.truth, &frame.belief};
+    Vector6d error = Vector6d::Zero();
+    error[1] = 0.03;
+    pair.T_world_told = boxplus(frame.truth.T_world_camera, error);
+    evaluation.add(pair);
+  }
+  EXPECT_NEAR(evaluation.scores().camera_told->translation_m, 0.03, 1e-12);
+  EXPECT_NEAR(evaluation.scores().camera->translation_m, 0.0, 1e-12);
 }
 
 TEST(Evaluation, TurnsAboutASymmetryAxisAreNoErrors) {
@@ -239,6 +262,7 @@ TEST(Evaluation, NothingAtAllHasNoScores) {
   std::string const json = scores_json(Evaluation({}, std::nullopt).scores());
   EXPECT_NE(json.find("\"wov\": null"), std::string::npos);
   EXPECT_NE(json.find("\"tilt_deg\": null"), std::string::npos);
+  EXPECT_NE(json.find("\"ate_m\": null"), std::string::npos);
   EXPECT_NE(json.find("\"ece\": null"), std::string::npos);
   EXPECT_NE(json.find("\"delay_frames\": null"), std::string::npos);
   EXPECT_NE(json.find("\"id_switches\": null"), std::string::npos);

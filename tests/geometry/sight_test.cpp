@@ -71,5 +71,29 @@ TEST(Sight, OfNothingIsNothing) {
   EXPECT_THROW(sight_of(Grid<float>(2, 2), LabelMap(2, 1), {525, 525, 0, 0}), std::logic_error);
 }
 
+TEST(MiddleNormals, AreThoseOfEachBlocksMiddlePixel) {
+  LabelMap const labels(330, 250, kUnassigned);
+  Sight const sight = sight_of(some_depth(330, 250), labels, {});
+  NormalMap normals(330, 250);
+  for (std::size_t i = 0; i < normals.size(); i += 2) {
+    normals.set(i, {static_cast<float>(i), 1.0F, -1.0F});
+  }
+  NormalMap const middle = middle_normals(normals, sight);
+  ASSERT_TRUE(middle.x.same_size(sight.depth_m));
+  for (std::size_t i = 0; i < middle.size(); ++i) {
+    std::size_t const pixel = normals.x.index(sight.middle_of(middle.x.pixel(i)));
+    EXPECT_EQ(middle.valid(i), normals.valid(pixel));
+    EXPECT_TRUE(!middle.valid(i) || middle.at(i) == normals.at(pixel));
+  }
+}
+
+TEST(MiddleNormals, OfASmallerImageAreRefused) {
+  LabelMap const labels(320, 240, kUnassigned);
+  Sight const sight = sight_of(some_depth(320, 240), labels, {});
+  EXPECT_THROW((void)middle_normals(NormalMap(318, 240), sight), std::logic_error);
+  EXPECT_THROW((void)middle_normals(NormalMap(320, 238), sight), std::logic_error);
+  EXPECT_TRUE(middle_normals({}, Sight{}).empty());
+}
+
 }  // namespace
 }  // namespace credo

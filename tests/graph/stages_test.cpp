@@ -170,5 +170,50 @@ TEST_F(StagesTest, FramesThatBelongTogetherHaveOnePriorInTheWorld) {
               transformed(frame_of(2).T_source_camera.inverse(), in_world));
 }
 
+TEST_F(StagesTest, AFrameIsSegmentedWithTheCorrectionThatIsBelieved) {
+  config_.capture.independent_frames = false;
+  config_.fusion.drift.enabled = true;
+  Prior const prior = prior_in(PriorFrame::kWorld);
+  Se3 const level(so3_exp({0.1, -0.2, 0.05}), {0.0, 0.0, 1.2});
+  Stages const stages = make_stages(config_, {level, true, ""}, prior, known_);
+  BeliefState belief = prior_belief(prior, level * frame_of(0).T_source_camera);
+  belief.T_world_told = Se3(so3_exp({0.01, 0.02, 0.03}), {0.03, -0.02, 0.01});
+  Se3 const camera = belief.T_world_told * level * frame_of(1).T_source_camera;
+  Segmentation const segmentation = segment(stages, frame_of(1), belief);
+  EXPECT_TRUE(segmentation.T_world_camera.matrix().isApprox(camera.matrix(), 1e-12));
+  EXPECT_TRUE(segmentation.T_world_told.matrix().isApprox(belief.T_world_told.matrix(), 1e-12));
+  ASSERT_THAT(asked_, SizeIs(1));
+  expect_pose(asked_[0].expected_camera,
+              transformed(camera.inverse(), prior.objects[0].pose_world));
+  // A frame that shows nothing leaves it; another, of the belief that it is fused into, counts.
+  BeliefState const after = stages.fusion(belief, segmentation);
+  EXPECT_TRUE(after.T_world_camera.matrix().isApprox(camera.matrix(), 1e-12));
+  belief.T_world_told = Se3();
+  BeliefState const told = stages.fusion(belief, segmentation);
+  EXPECT_TRUE(
+      told.T_world_camera.matrix().isApprox((level * frame_of(1).T_source_camera).matrix(), 1e-12));
+  EXPECT_TRUE(told.T_world_told.matrix().isIdentity(1e-12));
+}
+
+struct Asked {
+  bool visibility;
+  bool drift;
+};
+
+class SightTest : public StagesTest, public testing::WithParamInterface<Asked> {};
+
+TEST_P(SightTest, IsMadeForWhoAsks) {
+  config_.fusion.stuff.visibility = GetParam().visibility;
+  config_.fusion.drift.enabled = GetParam().drift;
+  Stages const stages = make_stages(config_, {Se3(), true, ""}, {}, known_);
+  Segmentation const segmentation = segment(stages, frame_of(0), {});
+  EXPECT_EQ(segmentation.sight.depth_m.empty(), !GetParam().visibility && !GetParam().drift);
+  EXPECT_EQ(segmentation.sight.normals_camera.empty(), !GetParam().drift);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, SightTest,
+                         testing::Values(Asked{false, false}, Asked{true, false},
+                                         Asked{false, true}, Asked{true, true}));
+
 }  // namespace
 }  // namespace credo

@@ -163,6 +163,20 @@ FieldList fields(BirthConfig& config) {
   };
 }
 
+FieldList fields(DriftConfig& config) {
+  return {
+      {"enabled", &config.enabled, {}, "", "poses are corrected before frames are fused"},
+      {"step_m",
+       &config.step_m,
+       {1e-6, 1},
+       "m",
+       "how much the correction is expected to change from frame to frame, standard deviation"},
+      {"step_rad", &config.step_rad, {1e-6, 1}, "rad", "the same of its turn"},
+      {"max_m", &config.max_m, {0, 10}, "m", "how far it may take the camera"},
+      {"max_rad", &config.max_rad, {0, 1}, "rad", "how far it may turn the camera"},
+  };
+}
+
 FieldList fields(FusionConfig& config) {
   return {
       {"visibility",
@@ -177,6 +191,8 @@ FieldList fields(FusionConfig& config) {
        "with visibility: that a floor or a wall seen for the first time is there"},
       section("existence", fields(config.existence),
               "how observations move the probability that a thing is there"),
+      section("drift", fields(config.drift),
+              "how the poses that frames tell are corrected against what is believed"),
       section("objects", fields(config.objects),
               "how the pose of a known object is learnt and forgotten"),
       section("floor", fields(config.floor), "how observations of the floor add up"),

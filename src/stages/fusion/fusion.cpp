@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include "stages/fusion/drift.hpp"
 #include "stages/fusion/existence.hpp"
 #include "stages/fusion/floor.hpp"
+#include "stages/fusion/moved_segmentation.hpp"
 #include "stages/fusion/objects.hpp"
 #include "stages/fusion/stuff.hpp"
 #include "stages/fusion/stuff_items.hpp"
@@ -11,7 +13,6 @@
 #include "stages/fusion/walls.hpp"
 
 namespace credo {
-
 namespace {
 
 void fuse_surroundings(BeliefState& belief, Segmentation const& segmentation,
@@ -30,16 +31,16 @@ void fuse_surroundings(BeliefState& belief, Segmentation const& segmentation,
   }
 }
 
-}  // namespace
-
-BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConfig const& config,
-                 KnownSurfaces const& surfaces) {
+/// Of a frame whose pose is right.
+BeliefState fuse_in_place(BeliefState prior, Segmentation const& segmentation,
+                          FusionConfig const& config, KnownSurfaces const& surfaces) {
   ViewChange const change = view_change(prior, segmentation);
   BeliefState belief = std::move(prior);
   belief.frame = segmentation.frame;
   belief.stamp_ns = segmentation.stamp_ns;
   belief.segmented_with = segmentation.segmented_with;
   belief.T_world_camera = segmentation.T_world_camera;
+  belief.T_world_told = segmentation.T_world_told;
   belief.objects = fused_objects(std::move(belief.objects), segmentation, change, surfaces, config);
   fuse_surroundings(belief, segmentation, config);
   FusedStuff stuff{std::move(belief.stuff), belief.next_stuff_id};
@@ -49,6 +50,19 @@ BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConf
   belief.stuff = std::move(stuff.stuff);
   belief.next_stuff_id = stuff.next_id;
   return belief;
+}
+
+}  // namespace
+
+BeliefState fuse(BeliefState prior, Segmentation const& segmentation, FusionConfig const& config,
+                 KnownSurfaces const& surfaces) {
+  if (!config.drift.enabled) {
+    return fuse_in_place(std::move(prior), segmentation, config, surfaces);
+  }
+  Se3 const T_world_told = tracked_drift(prior, segmentation, config.drift);
+  return fuse_in_place(std::move(prior),
+                       moved(segmentation, T_world_told * segmentation.T_world_told.inverse()),
+                       config, surfaces);
 }
 
 }  // namespace credo

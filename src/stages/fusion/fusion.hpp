@@ -110,6 +110,20 @@ FieldList fields(BirthConfig& config);
 [[nodiscard]] double birth_log_odds(double thickness_blocks, BirthConfig const& config,
                                     ExistenceConfig const& existence);
 
+/// How the poses that frames tell are corrected against what is believed (drift.hpp; T: not at
+/// all).
+struct DriftConfig {
+  bool enabled = false;
+  /// How much the correction is expected to change from frame to frame, standard deviations along
+  /// and about each axis.
+  double step_m = 0.005;
+  double step_rad = 0.005;
+  /// How far from what is told it may take the camera.
+  double max_m = 0.3;
+  double max_rad = 0.15;
+};
+FieldList fields(DriftConfig& config);
+
 struct FusionConfig {
   /// The rule that knows what it could not see (stuff_items.hpp, objects.hpp, surroundings.hpp);
   /// else the thesis'.
@@ -120,6 +134,7 @@ struct FusionConfig {
   /// could not see.
   double new_probability = 0.7;
   ExistenceConfig existence;
+  DriftConfig drift;
   ObjectFusionConfig objects;
   FloorFusionConfig floor;
   WallFusionConfig walls;
