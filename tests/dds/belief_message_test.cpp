@@ -14,7 +14,12 @@ namespace {
 
 // All that JSON tells of a belief is told on DDS, to the bit.
 TEST(BeliefMessage, TellsAllThatALineTells) {
-  for (BeliefState const& state : {belief_of_a_kitchen(), BeliefState()}) {
+  BeliefState kitchen = belief_of_a_kitchen();
+  kitchen.floor->log_odds = 0.1;
+  kitchen.walls[0].log_odds = 0.2;
+  kitchen.objects[0].log_odds = -0.3;
+  kitchen.stuff[0].log_odds = 0.4;
+  for (BeliefState const& state : {kitchen, BeliefState()}) {
     BeliefSummary const belief = summary_of(state);
     BeliefMessage const message("robot-1", 7, belief);
     EXPECT_STREQ(message.sample().source, "robot-1");

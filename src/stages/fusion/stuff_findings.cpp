@@ -18,6 +18,13 @@ constexpr double kMostThroughSeen = 0.35;
 constexpr double kLeastThroughGone = 0.6;
 constexpr double kLeastThroughSurelyGone = 0.85;
 constexpr double kLeastVisibleSurelyGone = 0.3;
+
+/// Of what is usually seen of it, the part that is seen or seen through.
+double visible_share(StuffLook const& look, double most_agreeing) {
+  int const told = look.counts[PointState::kAgrees] + look.counts[PointState::kSeenThrough];
+  return std::min(1.0, told / (kUsuallySeen * std::max(1.0, most_agreeing)));
+}
+
 /// P(look | there) and P(look | not there).
 std::pair<double, double> likelihoods(Finding const& finding) {
   double const s = std::min(1.0, finding.visible / 0.5);
@@ -38,7 +45,7 @@ std::pair<double, double> likelihoods(Finding const& finding) {
 std::optional<Finding> finding_of(StuffLook const& look, double most_agreeing, bool matched) {
   int const agrees = look.counts[PointState::kAgrees];
   int const told = agrees + look.counts[PointState::kSeenThrough];
-  double const visible = told / (kUsuallySeen * std::max(1.0, most_agreeing));
+  double const visible = visible_share(look, most_agreeing);
   if (told < kLeastPoints || visible <= kLeastVisible) {
     return std::nullopt;
   }
@@ -60,10 +67,32 @@ void believe(StuffBelief& item, Finding const& finding, Look const& now, double 
   auto const [if_there, if_not] = likelihoods(finding);
   bool const changed = (finding.verdict == Verdict::kSeen) != (item.verdict == Verdict::kSeen);
   double const k = changed ? 1.0 : news;
-  double const moved = item.log_odds + std::log((1.0 - k + k * if_there) / (1.0 - k + k * if_not));
-  item.log_odds = bounded_log_odds(moved, config);
+  double const before = item.log_odds;
+  double const updated = before + std::log((1.0 - k + k * if_there) / (1.0 - k + k * if_not));
+  item.log_odds = bounded_log_odds(updated, config);
+  item.why.news = k;
+  item.why.moved = item.log_odds - before;
+  item.why.bounded = item.log_odds != updated;
   item.verdict = finding.verdict;
   item.last_look = now;
+}
+
+void raise_to(StuffBelief& item, double least_log_odds) {
+  double const before = item.log_odds;
+  item.log_odds = std::max(before, least_log_odds);
+  item.why.moved += item.log_odds - before;
+}
+
+Account account_of(StuffLook const& look, double most_agreeing) {
+  return {.points = look.counts, .visible_share = visible_share(look, most_agreeing)};
+}
+
+Account account_of_new(StuffModel const& model) {
+  Account why;
+  why.visible_share = 1.0;
+  why.news = 1.0;
+  why.points[PointState::kAgrees] = static_cast<int>(model.points.size());
+  return why;
 }
 
 Evidence evidence_of(StuffLook const& look, std::optional<Finding> const& finding) {

@@ -22,9 +22,18 @@ struct Finding {
                                                 bool matched);
 
 /// Bayes' rule in log-odds, bounded. The more of a thing is seen, or seen through, the more it
-/// counts; what a look repeats of the one before counts by `news` (novelty), a change in full.
+/// counts; what a look repeats of the one before counts by `news` (novelty), a change in full. The
+/// item's account has that part, and by how much it moved.
 void believe(StuffBelief& item, Finding const& finding, Look const& now, double news,
              ExistenceConfig const& config);
+
+/// Believes a thing at least so much, and puts the jump to its account.
+void raise_to(StuffBelief& item, double least_log_odds);
+
+/// Of a look by itself: it has moved nothing yet.
+[[nodiscard]] Account account_of(StuffLook const& look, double most_agreeing);
+/// Of a thing that was made of what is seen: all of it is.
+[[nodiscard]] Account account_of_new(StuffModel const& model);
 
 /// Why its probability moved, or, without a finding, did not: by what most of its points met.
 [[nodiscard]] Evidence evidence_of(StuffLook const& look, std::optional<Finding> const& finding);

@@ -136,6 +136,7 @@ private:
     bool const matched = !labels.empty();
     std::optional<Finding> const finding = finding_of(seen, item.most_agreeing, matched);
     item.evidence = evidence_of(seen, finding);
+    item.why = account_of(seen, item.most_agreeing);
     Eigen::Vector3d const middle = item.latest().centroid_world.cast<double>();
     news_[i] = novelty(view_change(item.last_look, now_), middle, config_.existence);
     if (finding) {
@@ -210,7 +211,7 @@ private:
       item.evidence = Evidence::kSeen;
       item.verdict = Verdict::kSeen;
       item.last_look = now_;
-      item.log_odds = std::max(item.log_odds, log_odds_of(config_.stuff.new_probability));
+      raise_to(item, log_odds_of(config_.stuff.new_probability));
       ++item.history_count;
       begin_model(item, seen);
       given_to_[found.cluster] = static_cast<std::int32_t>(found.item);
@@ -331,8 +332,11 @@ private:
     if (!first.label) {
       first.label = second.label;
       first.evidence = second.evidence;
+      double const moved = first.why.moved;
+      first.why = second.why;
+      first.why.moved = moved;
     }
-    first.log_odds = std::max(first.log_odds, second.log_odds);
+    raise_to(first, second.log_odds);
     first.most_agreeing = std::max(first.most_agreeing, second.most_agreeing);
     set_model(first, fused_model(*first.model, points_world),
               std::max(first.latest().pixel_count, second.latest().pixel_count));
@@ -355,6 +359,7 @@ private:
     item.history_count = 1;
     item.last_look = now_;
     begin_model(item, clusters_[c]);
+    item.why = account_of_new(*item.model);
   }
 
   /// A cluster that showed to be a thing of its own, and what is believed of that.
