@@ -46,7 +46,9 @@ TEST(BeliefMessage, EachEvidenceHasItsWord) {
 // Where its names lie is the message's own matter.
 TEST(BeliefMessage, OutlivesWhatItWasMadeOf) {
   auto belief = std::make_unique<BeliefSummary>();
-  belief->objects.emplace_back().id = "a name that is too long to lie within a string";
+  ObjectSummary& object = belief->objects.emplace_back();
+  object.id = "a name that is too long to lie within a string";
+  object.why = Account();
   std::string const expected = belief_json(*belief);
   BeliefMessage const message("a source that is too long to lie within a string", 1, *belief);
   belief.reset();
