@@ -33,9 +33,9 @@ constexpr char const* kExamples = R"(Examples:
   credo why out/room 7 --plot why-7.svg      the same drawn over the time
   credo why out/room 7 --json                for scripts
 
-One row for each run of frames with the same evidence. Points are those of the thing's surface: agree
-(measured where they should be), hidden (something nearer), through (seen through), blind (no depth),
-out (of view). News is how many independent looks the frames are worth; log-odds are natural
+One row for each span of frames with the same evidence. Points are those of the thing's surface:
+agree (measured where they should be), hidden (something nearer), through (seen through), blind (no
+depth), out (of view). News is how many independent looks the frames are worth; log-odds are natural
 logarithms of p / (1 - p). docs/why.md has an example.)";
 
 struct WhyCommand {
