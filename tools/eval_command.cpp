@@ -17,7 +17,6 @@
 #include "core/error.hpp"
 #include "eval/evaluation.hpp"
 #include "eval/plots.hpp"
-#include "io/belief_json.hpp"
 #include "io/dataset_listing.hpp"
 #include "io/image.hpp"
 #include "io/intrinsics.hpp"
@@ -26,6 +25,7 @@
 #include "io/trajectory.hpp"
 #include "io/truth_json.hpp"
 #include "model_files.hpp"
+#include "run_beliefs.hpp"
 #include "score_table.hpp"
 
 namespace credo {
@@ -91,18 +91,6 @@ void show_progress(std::size_t done, std::size_t all) {
   if (isatty(STDERR_FILENO) != 0) {
     std::cerr << fmt::format("\rframe {}/{}{}", done, all, done == all ? "\n" : "") << std::flush;
   }
-}
-
-std::vector<BeliefSummary> beliefs_of(fs::path const& run) {
-  fs::path const path = run / "belief.jsonl";
-  if (!fs::is_regular_file(path)) {
-    throw InputError(run.string() + ": no run: it has no belief.jsonl (credo run --out writes it)");
-  }
-  std::vector<BeliefSummary> beliefs = read_beliefs(path);
-  if (beliefs.empty()) {
-    throw InputError(path.string() + ": holds no belief: the run had no good frame");
-  }
-  return beliefs;
 }
 
 Se3 camera_in(BeliefSummary const& belief, fs::path const& run) {
@@ -250,7 +238,7 @@ std::optional<Evaluated> against_label_fields(EvalCommand const& command,
 }
 
 Evaluated evaluated(EvalCommand const& command) {
-  std::vector<BeliefSummary> const beliefs = beliefs_of(command.run);
+  std::vector<BeliefSummary> const beliefs = beliefs_of_run(command.run);
   if (!fs::is_directory(command.truth)) {
     throw InputError(command.truth.string() + ": no such folder of a truth");
   }

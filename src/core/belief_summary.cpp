@@ -6,13 +6,27 @@
 namespace credo {
 namespace {
 
+FloorSummary floor_summary(FloorBelief const& floor) {
+  return {floor.normal,
+          floor.height_m,
+          floor.points->size(),
+          probability_of(floor.log_odds),
+          floor.log_odds,
+          floor.evidence,
+          floor.why};
+}
+
 WallSummary wall_summary(WallBelief const& wall) {
   return {wall.id,
           wall.segment_start_m,
           wall.segment_end_m,
           wall.plane_world.normal,
           wall.points->size(),
-          wall.label};
+          wall.label,
+          probability_of(wall.log_odds),
+          wall.log_odds,
+          wall.evidence,
+          wall.why};
 }
 
 ObjectSummary object_summary(ObjectBelief const& object) {
@@ -24,7 +38,9 @@ ObjectSummary object_summary(ObjectBelief const& object) {
           pose.mean.rotation(),
           0.5 * (pose.covariance + pose.covariance.transpose()),
           object.evidence,
-          object.label};
+          object.label,
+          object.log_odds,
+          object.why};
 }
 
 StuffSummary stuff_summary(StuffBelief const& stuff) {
@@ -37,7 +53,9 @@ StuffSummary stuff_summary(StuffBelief const& stuff) {
           latest.bounds_world.min(),
           latest.bounds_world.max(),
           stuff.evidence,
-          stuff.label};
+          stuff.label,
+          stuff.log_odds,
+          stuff.why};
 }
 
 }  // namespace
@@ -49,7 +67,7 @@ BeliefSummary summary_of(BeliefState const& belief) {
   summary.segmented_with = belief.segmented_with;
   summary.T_world_camera = belief.T_world_camera.matrix();
   if (belief.floor) {
-    summary.floor = {belief.floor->normal, belief.floor->height_m, belief.floor->points->size()};
+    summary.floor = floor_summary(*belief.floor);
   }
   std::ranges::transform(belief.walls, std::back_inserter(summary.walls), wall_summary);
   std::ranges::transform(belief.objects, std::back_inserter(summary.objects), object_summary);

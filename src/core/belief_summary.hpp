@@ -12,12 +12,18 @@
 namespace credo {
 
 // The belief in numbers, without its points: what files and topics tell of it. World frame.
+// `why` is missing in files that older versions wrote; log-odds there are those of the probability.
 
 struct FloorSummary {
   /// Unit, up.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   double height_m = 0.0;
   std::uint64_t point_count = 0;
+  // Not told, either, where `why` is missing.
+  double probability = 0.5;
+  double log_odds = 0.0;
+  Evidence evidence = Evidence::kNotSeen;
+  std::optional<Account> why;
 };
 
 struct WallSummary {
@@ -28,6 +34,11 @@ struct WallSummary {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
   std::uint64_t point_count = 0;
   std::optional<LabelCode> label;
+  // Not told, either, where `why` is missing.
+  double probability = 0.5;
+  double log_odds = 0.0;
+  Evidence evidence = Evidence::kNotSeen;
+  std::optional<Account> why;
 };
 
 struct ObjectSummary {
@@ -40,6 +51,8 @@ struct ObjectSummary {
   Matrix6d covariance = Matrix6d::Zero();
   Evidence evidence = Evidence::kNotSeen;
   std::optional<LabelCode> label;
+  double log_odds = 0.0;
+  std::optional<Account> why;
 };
 
 struct StuffSummary {
@@ -53,6 +66,8 @@ struct StuffSummary {
   Eigen::Vector3f max_m = Eigen::Vector3f::Zero();
   Evidence evidence = Evidence::kSeen;
   std::optional<LabelCode> label;
+  double log_odds = 0.0;
+  std::optional<Account> why;
 };
 
 struct BeliefSummary {

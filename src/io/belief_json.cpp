@@ -1,5 +1,6 @@
 #include "io/belief_json.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -32,41 +33,82 @@ Json label_json(std::optional<LabelCode> const& label) {
   return label ? Json(*label) : Json(nullptr);
 }
 
+Json why_json(Account const& why) {
+  return {{"agrees", why.points[PointState::kAgrees]},
+          {"occluded", why.points[PointState::kOccluded]},
+          {"seen_through", why.points[PointState::kSeenThrough]},
+          {"no_depth", why.points[PointState::kUnmeasured]},
+          {"out_of_view", why.points[PointState::kOutOfView]},
+          {"visible_share", why.visible_share},
+          {"news", why.news},
+          {"moved", why.moved},
+          {"bounded", why.bounded}};
+}
+
+/// What an older version did not tell stays untold.
+template <typename Summary>
+void add_why(Json& json, Summary const& thing) {
+  if (thing.why) {
+    // JSON has no infinity; the probability tells which it is.
+    json["log_odds"] = std::isfinite(thing.log_odds) ? Json(thing.log_odds) : Json();
+    json["why"] = why_json(*thing.why);
+  }
+}
+
+/// Of floor and walls, which older versions did not doubt.
+template <typename Summary>
+void add_existence(Json& json, Summary const& plane) {
+  if (plane.why) {
+    json["probability"] = plane.probability;
+    json["evidence"] = to_string(plane.evidence);
+  }
+  add_why(json, plane);
+}
+
 Json floor_json(FloorSummary const& floor) {
-  return {{"normal", numbers(floor.normal)},
-          {"height_m", floor.height_m},
-          {"points", floor.point_count}};
+  Json json = {{"normal", numbers(floor.normal)},
+               {"height_m", floor.height_m},
+               {"points", floor.point_count}};
+  add_existence(json, floor);
+  return json;
 }
 
 Json wall_json(WallSummary const& wall) {
-  return {{"id", wall.id},
-          {"segment", Json::array({numbers(wall.segment_start_m), numbers(wall.segment_end_m)})},
-          {"normal", numbers(wall.normal)},
-          {"points", wall.point_count},
-          {"label", label_json(wall.label)}};
+  Json json = {
+      {"id", wall.id},
+      {"segment", Json::array({numbers(wall.segment_start_m), numbers(wall.segment_end_m)})},
+      {"normal", numbers(wall.normal)},
+      {"points", wall.point_count},
+      {"label", label_json(wall.label)}};
+  add_existence(json, wall);
+  return json;
 }
 
 Json object_json(ObjectSummary const& object) {
-  return {{"id", object.id},
-          {"type", object.type},
-          {"probability", object.probability},
-          {"position", numbers(object.position_m)},
-          {"orientation_xyzw", numbers(object.orientation.coeffs())},
-          {"covariance", rows(object.covariance)},
-          {"evidence", to_string(object.evidence)},
-          {"label", label_json(object.label)}};
+  Json json = {{"id", object.id},
+               {"type", object.type},
+               {"probability", object.probability},
+               {"position", numbers(object.position_m)},
+               {"orientation_xyzw", numbers(object.orientation.coeffs())},
+               {"covariance", rows(object.covariance)},
+               {"evidence", to_string(object.evidence)},
+               {"label", label_json(object.label)}};
+  add_why(json, object);
+  return json;
 }
 
 Json stuff_json(StuffSummary const& stuff) {
-  return {{"id", stuff.id},
-          {"probability", stuff.probability},
-          {"history", stuff.history_count},
-          {"points", stuff.pixel_count},
-          {"centroid", numbers(stuff.centroid_m)},
-          {"min", numbers(stuff.min_m)},
-          {"max", numbers(stuff.max_m)},
-          {"evidence", to_string(stuff.evidence)},
-          {"label", label_json(stuff.label)}};
+  Json json = {{"id", stuff.id},
+               {"probability", stuff.probability},
+               {"history", stuff.history_count},
+               {"points", stuff.pixel_count},
+               {"centroid", numbers(stuff.centroid_m)},
+               {"min", numbers(stuff.min_m)},
+               {"max", numbers(stuff.max_m)},
+               {"evidence", to_string(stuff.evidence)},
+               {"label", label_json(stuff.label)}};
+  add_why(json, stuff);
+  return json;
 }
 
 template <typename T, typename ToJson>

@@ -32,9 +32,52 @@ FrameIndex belief_of(JsonValue const& value) {
   return value.json == -1 ? kPriorFrame : value.frame();
 }
 
+int points_of(JsonValue const& value) {
+  return static_cast<int>(value.count(std::numeric_limits<int>::max()));
+}
+
+Account account_of(JsonValue const& value) {
+  Account why;
+  why.points[PointState::kAgrees] = points_of(value.at("agrees"));
+  why.points[PointState::kOccluded] = points_of(value.at("occluded"));
+  why.points[PointState::kSeenThrough] = points_of(value.at("seen_through"));
+  why.points[PointState::kUnmeasured] = points_of(value.at("no_depth"));
+  why.points[PointState::kOutOfView] = points_of(value.at("out_of_view"));
+  why.visible_share = value.at("visible_share").number();
+  why.news = value.at("news").number();
+  why.moved = value.at("moved").number();
+  why.bounded = value.at("bounded").flag();
+  return why;
+}
+
+/// Lines that older versions wrote have neither log-odds nor why.
+template <typename Summary>
+void read_why(JsonValue const& value, Summary& thing) {
+  thing.log_odds = log_odds_of(thing.probability);
+  if (value.has("why")) {
+    if (JsonValue const log_odds = value.at("log_odds"); !log_odds.json.is_null()) {
+      thing.log_odds = log_odds.number();
+    }
+    thing.why = account_of(value.at("why"));
+  }
+}
+
+template <typename Summary>
+void read_existence(JsonValue const& value, Summary& plane) {
+  if (value.has("why")) {
+    plane.probability = value.at("probability").fraction();
+    plane.evidence = evidence_of(value.at("evidence"));
+  }
+  read_why(value, plane);
+}
+
 FloorSummary floor_of(JsonValue const& value) {
-  return {value.at("normal").vector(), value.at("height_m").number(),
-          value.at("points").count(kMaxCount)};
+  FloorSummary floor;
+  floor.normal = value.at("normal").vector();
+  floor.height_m = value.at("height_m").number();
+  floor.point_count = value.at("points").count(kMaxCount);
+  read_existence(value, floor);
+  return floor;
 }
 
 WallSummary wall_of(JsonValue const& value) {
@@ -46,6 +89,7 @@ WallSummary wall_of(JsonValue const& value) {
   wall.normal = value.at("normal").vector();
   wall.point_count = value.at("points").count(kMaxCount);
   wall.label = label_of(value.at("label"));
+  read_existence(value, wall);
   return wall;
 }
 
@@ -61,6 +105,7 @@ ObjectSummary object_of(JsonValue const& value) {
       Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor> const>(covariance.data());
   object.evidence = evidence_of(value.at("evidence"));
   object.label = label_of(value.at("label"));
+  read_why(value, object);
   return object;
 }
 
@@ -75,6 +120,7 @@ StuffSummary stuff_of(JsonValue const& value) {
   stuff.max_m = value.at("max").vector().cast<float>();
   stuff.evidence = evidence_of(value.at("evidence"));
   stuff.label = label_of(value.at("label"));
+  read_why(value, stuff);
   return stuff;
 }
 

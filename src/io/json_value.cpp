@@ -22,11 +22,16 @@ std::string listed(std::initializer_list<char const*> names) {
   return text;
 }
 
-nlohmann::json parsed(std::string const& line) {
+/// `is_end`: the file ends with this line, and without a line's end.
+nlohmann::json parsed(std::string const& line, bool is_end) {
   try {
     return nlohmann::json::parse(line);
   } catch (nlohmann::json::parse_error const& error) {
-    throw std::invalid_argument("is not JSON from character " + std::to_string(error.byte) + " on");
+    bool const is_cut = is_end && error.byte > line.size();
+    throw std::invalid_argument("is not JSON from character " + std::to_string(error.byte) + " on" +
+                                (is_cut ? ": the file was cut short; without this line the rest "
+                                          "can be read"
+                                        : ""));
   } catch (nlohmann::json::out_of_range const&) {
     throw std::invalid_argument("has a number that is too large");
   }
@@ -179,7 +184,7 @@ void for_each_json_line(std::filesystem::path const& path, std::string const& wh
       continue;
     }
     try {
-      nlohmann::json const json = parsed(line);
+      nlohmann::json const json = parsed(line, file.eof());
       each({json, ""});
     } catch (std::exception const& error) {
       throw InputError(path.string() + ":" + std::to_string(line_number) + ": " + error.what());

@@ -14,7 +14,12 @@ namespace {
 
 // All that JSON tells of a belief is told on DDS, to the bit.
 TEST(BeliefMessage, TellsAllThatALineTells) {
-  for (BeliefState const& state : {belief_of_a_kitchen(), BeliefState()}) {
+  BeliefState kitchen = belief_of_a_kitchen();
+  kitchen.floor->log_odds = 0.1;
+  kitchen.walls[0].log_odds = 0.2;
+  kitchen.objects[0].log_odds = -0.3;
+  kitchen.stuff[0].log_odds = 0.4;
+  for (BeliefState const& state : {kitchen, BeliefState()}) {
     BeliefSummary const belief = summary_of(state);
     BeliefMessage const message("robot-1", 7, belief);
     EXPECT_STREQ(message.sample().source, "robot-1");
@@ -41,7 +46,9 @@ TEST(BeliefMessage, EachEvidenceHasItsWord) {
 // Where its names lie is the message's own matter.
 TEST(BeliefMessage, OutlivesWhatItWasMadeOf) {
   auto belief = std::make_unique<BeliefSummary>();
-  belief->objects.emplace_back().id = "a name that is too long to lie within a string";
+  ObjectSummary& object = belief->objects.emplace_back();
+  object.id = "a name that is too long to lie within a string";
+  object.why = Account();
   std::string const expected = belief_json(*belief);
   BeliefMessage const message("a source that is too long to lie within a string", 1, *belief);
   belief.reset();

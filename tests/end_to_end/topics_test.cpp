@@ -83,9 +83,13 @@ protected:
 // The bottle is moved: what stood at its first place leaves the belief, and so its topic.
 TEST_F(Topics, EachThingIsAnInstanceThatGoesWithIt) {
   Participant const participant(config_);
+  std::map<std::string, double> log_odds;
   ThingReader<credo_msg_StuffState> stuff(
       participant, "stuff", credo_msg_StuffState_desc,
-      [](auto const& state) { return std::to_string(state.stuff_id); },
+      [&](auto const& state) {
+        log_odds[std::to_string(state.stuff_id)] = state.stuff.log_odds;
+        return std::to_string(state.stuff_id);
+      },
       [](auto const& state) { return values(state.points_world_m); });
   ThingReader<credo_msg_ObjectState> objects(
       participant, "objects", credo_msg_ObjectState_desc,
@@ -143,6 +147,9 @@ TEST_F(Topics, EachThingIsAnInstanceThatGoesWithIt) {
   expect_alive(walls.topic, ids("walls"));
   expect_alive(floor.topic, {"robot"});
   EXPECT_THAT(stuff.topic.disposed, ::testing::ElementsAre("1"));
+  for (json const& thing : last["stuff"]) {
+    EXPECT_EQ(log_odds[thing["id"].dump()], thing["log_odds"].get<double>());
+  }
   EXPECT_EQ(floor.topic.points["robot"].size(), 3 * last["floor"]["points"].get<std::size_t>());
   for (json const& wall : last["walls"]) {
     EXPECT_EQ(walls.topic.points[wall["id"].dump()].size(), 3 * wall["points"].get<std::size_t>());

@@ -80,6 +80,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "--dump: depth not in {labels,pictures}; see credo --help"},
         BadUsage{"OutInAFile", sim_with({"--out", "/dev/null/out"}),
                  "--out /dev/null/out: cannot be created: Not a directory"},
+        BadUsage{"WhyOfNoRun", {"why"}, "run is required; see credo --help"},
+        BadUsage{"PlotOfNothing",
+                 {"why", "out/room", "--plot", "a.svg"},
+                 "--plot requires id; see credo --help"},
         BadUsage{"PageOfAnOverlay",
                  {"config", "--markdown", "--set", "graph.threads=1"},
                  "--set excludes --markdown; see credo --help"}),
@@ -91,6 +95,7 @@ TEST(CommandLine, HelpHasExamplesAndExitsWith0) {
                                                   {"calibrate", "--help"},
                                                   {"record", "--help"},
                                                   {"doctor", "--help"},
+                                                  {"why", "--help"},
                                                   {"config", "--help"}}) {
     Ended const ended = test::credo(command);
     EXPECT_EQ(ended.code, 0);
@@ -110,7 +115,7 @@ TEST(CommandLine, HelpNamesEveryOption) {
   EXPECT_THAT(all, HasSubstr("Exit codes: 0 done (also when stopped by Ctrl-C), 2 bad usage, "
                              "config or input, 1 anything else."));
   for (char const* command :
-       {"\n  run ", "\n  record ", "\n  calibrate ", "\n  doctor ", "\n  config "}) {
+       {"\n  run ", "\n  record ", "\n  calibrate ", "\n  doctor ", "\n  why ", "\n  config "}) {
     EXPECT_THAT(all, HasSubstr(command));
   }
   EXPECT_THAT(test::credo({"--version"}).out, StartsWith("credo 0."));

@@ -2,6 +2,7 @@
 // the loopback. Usage: credo_fastdds_reader TOPIC TIMEOUT_S
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -43,6 +44,23 @@ credo::Evidence evidence_of(credo::msg::Evidence evidence) {
   return static_cast<credo::Evidence>(evidence);
 }
 
+credo::Account account_of(credo::msg::Account const& message) {
+  credo::Account why;
+  auto const put = [&](credo::PointState state, std::uint32_t points) {
+    why.points[state] = static_cast<int>(points);
+  };
+  put(credo::PointState::kAgrees, message.agrees());
+  put(credo::PointState::kOccluded, message.occluded());
+  put(credo::PointState::kSeenThrough, message.seen_through());
+  put(credo::PointState::kUnmeasured, message.no_depth());
+  put(credo::PointState::kOutOfView, message.out_of_view());
+  why.visible_share = message.visible_share();
+  why.news = message.news();
+  why.moved = message.moved();
+  why.bounded = message.bounded();
+  return why;
+}
+
 credo::BeliefSummary summary_of(credo::msg::Belief const& belief) {
   credo::BeliefSummary summary;
   summary.frame = credo::FrameIndex{belief.frame()};
@@ -50,12 +68,20 @@ credo::BeliefSummary summary_of(credo::msg::Belief const& belief) {
   summary.segmented_with = credo::FrameIndex{belief.segmented_with()};
   summary.T_world_camera = matrix_of<4>(belief.T_world_camera());
   for (credo::msg::FloorPlane const& floor : belief.floor()) {
-    summary.floor = {vector_of(floor.normal_world()), floor.height_m(), floor.point_count()};
+    summary.floor = {vector_of(floor.normal_world()),
+                     floor.height_m(),
+                     floor.point_count(),
+                     floor.probability(),
+                     floor.log_odds(),
+                     evidence_of(floor.evidence()),
+                     account_of(floor.why())};
   }
   for (credo::msg::WallSegment const& wall : belief.walls()) {
     summary.walls.push_back({wall.wall_id(), vector_of(wall.segment_start_world_m()),
                              vector_of(wall.segment_end_world_m()), vector_of(wall.normal_world()),
-                             wall.point_count(), label_of(wall.label())});
+                             wall.point_count(), label_of(wall.label()), wall.probability(),
+                             wall.log_odds(), evidence_of(wall.evidence()),
+                             account_of(wall.why())});
   }
   for (credo::msg::KnownObject const& object : belief.objects()) {
     credo::ObjectSummary entry;
@@ -67,13 +93,16 @@ credo::BeliefSummary summary_of(credo::msg::Belief const& belief) {
     entry.covariance = matrix_of<6>(object.covariance());
     entry.evidence = evidence_of(object.evidence());
     entry.label = label_of(object.label());
+    entry.log_odds = object.log_odds();
+    entry.why = account_of(object.why());
     summary.objects.push_back(entry);
   }
   for (credo::msg::StuffItem const& stuff : belief.stuff()) {
     summary.stuff.push_back({stuff.stuff_id(), stuff.probability(), stuff.history_count(),
                              stuff.pixel_count(), vector_of(stuff.centroid_world_m()),
                              vector_of(stuff.min_world_m()), vector_of(stuff.max_world_m()),
-                             evidence_of(stuff.evidence()), label_of(stuff.label())});
+                             evidence_of(stuff.evidence()), label_of(stuff.label()),
+                             stuff.log_odds(), account_of(stuff.why())});
   }
   return summary;
 }

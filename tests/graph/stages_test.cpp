@@ -203,7 +203,7 @@ struct Asked {
 class SightTest : public StagesTest, public testing::WithParamInterface<Asked> {};
 
 TEST_P(SightTest, IsMadeForWhoAsks) {
-  config_.fusion.stuff.visibility = GetParam().visibility;
+  config_.fusion.visibility = GetParam().visibility;
   config_.fusion.drift.enabled = GetParam().drift;
   Stages const stages = make_stages(config_, {Se3(), true, ""}, {}, known_);
   Segmentation const segmentation = segment(stages, frame_of(0), {});

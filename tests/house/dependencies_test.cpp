@@ -60,6 +60,7 @@ std::vector<std::string> const& allowed_rooms(std::string const& room) {
       {"dds", {"core", "dds"}},
       {"sim", {"core", "geometry", "io", "sim"}},
       {"eval", {"core", "geometry", "io", "eval"}},
+      {"history", {"core", "io", "history"}},
       {"stages", {"core", "geometry", "stages"}},
       {"doctor", {"core", "geometry", "openni", "dds", "stages", "doctor"}},
       {"graph", {"core", "geometry", "stages", "graph", "io"}},
@@ -70,9 +71,9 @@ std::vector<std::string> const& allowed_rooms(std::string const& room) {
 }
 
 std::set<std::string> const& rooms() {
-  static std::set<std::string> const all = {"core", "geometry", "config",  "io",
-                                            "sim",  "eval",     "stages",  "graph",
-                                            "dds",  "openni",   "drivers", "doctor"};
+  static std::set<std::string> const all = {"core",    "geometry", "config", "io",  "sim",
+                                            "eval",    "stages",   "graph",  "dds", "openni",
+                                            "drivers", "doctor",   "history"};
   return all;
 }
 

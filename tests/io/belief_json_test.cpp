@@ -27,16 +27,25 @@ TEST(BeliefJson, IsTheFormatOfTheFile) {
       belief_json(summary_of(belief_of_a_kitchen())),
       R"({"schema":1,"frame":3,"stamp_ns":100000000,"segmented_with":2,)"
       R"("T_world_camera":[1.0,0.0,0.0,1.0,0.0,1.0,0.0,2.0,0.0,0.0,1.0,1.5,0.0,0.0,0.0,1.0],)"
-      R"("floor":{"normal":[0.0,0.0,1.0],"height_m":0.25,"points":2},)"
+      R"("floor":{"normal":[0.0,0.0,1.0],"height_m":0.25,"points":2,)"
+      R"("probability":0.5,"evidence":"occluded",)"
+      R"("log_odds":0.0,"why":{"agrees":10,"occluded":11,"seen_through":12,"no_depth":13,"out_of_view":14,)"
+      R"("visible_share":0.5,"news":0.25,"moved":-1.25,"bounded":false}},)"
       R"("walls":[{"id":4,"segment":[[5.0,-1.0],[5.0,1.5]],"normal":[-1.0,-0.0,-0.0],)"
-      R"("points":1,"label":2001}],)"
+      R"("points":1,"label":2001,"probability":0.5,"evidence":"out_of_view",)"
+      R"("log_odds":0.0,"why":{"agrees":20,"occluded":21,"seen_through":22,"no_depth":23,"out_of_view":24,)"
+      R"("visible_share":0.5,"news":0.25,"moved":-2.5,"bounded":false}}],)"
       R"("objects":[{"id":"box_1","type":"box","probability":0.5,"position":[2.0,0.0,0.5],)"
       R"("orientation_xyzw":[0.0,0.0,1.0,0.0],"covariance":[1.0,0.0,0.0,0.0,0.0,0.0,)"
       R"(0.0,2.0,0.0,0.0,0.0,0.0,0.0,0.0,3.0,0.0,0.0,0.0,0.0,0.0,0.0,4.0,0.0,0.0,)"
       R"(0.0,0.0,0.0,0.0,5.0,0.0,0.0,0.0,0.0,0.0,0.0,6.0],)"
-      R"("evidence":"seen_through","label":null}],)"
+      R"("evidence":"seen_through","label":null,)"
+      R"("log_odds":0.0,"why":{"agrees":30,"occluded":31,"seen_through":32,"no_depth":33,"out_of_view":34,)"
+      R"("visible_share":0.5,"news":0.25,"moved":-3.75,"bounded":true}}],)"
       R"("stuff":[{"id":7,"probability":0.5,"history":3,"points":421,"centroid":[2.0,1.0,0.5],)"
-      R"("min":[1.5,0.5,0.0],"max":[2.5,1.5,1.0],"evidence":"seen","label":4003}]})");
+      R"("min":[1.5,0.5,0.0],"max":[2.5,1.5,1.0],"evidence":"seen","label":4003,)"
+      R"("log_odds":0.0,"why":{"agrees":40,"occluded":41,"seen_through":42,"no_depth":43,"out_of_view":44,)"
+      R"("visible_share":0.5,"news":0.25,"moved":-5.0,"bounded":true}}]})");
 }
 
 TEST(BeliefJson, NumbersReadBackToTheBit) {
@@ -93,6 +102,7 @@ TEST(BeliefJson, CertaintyAndEveryEvidenceHaveTheirWords) {
   Json json = Json::parse(belief_json(summary_of(belief)));
   EXPECT_EQ(json["objects"][0]["probability"], 0.0);
   EXPECT_EQ(json["stuff"][0]["probability"], 1.0);
+  EXPECT_EQ(json["stuff"][0]["log_odds"], nullptr) << "JSON has no infinity";
   std::vector<std::string> words;
   for (Evidence const evidence : {Evidence::kSeen, Evidence::kSeenThrough, Evidence::kOccluded,
                                   Evidence::kOutOfView, Evidence::kNotSeen}) {

@@ -6,6 +6,21 @@
 
 namespace credo::test {
 
+/// Points from `first` on by ones, in the order of the file; it moved log-odds by `first` eighths.
+inline Account account_from(int first) {
+  Account why;
+  why.points[PointState::kAgrees] = first;
+  why.points[PointState::kOccluded] = first + 1;
+  why.points[PointState::kSeenThrough] = first + 2;
+  why.points[PointState::kUnmeasured] = first + 3;
+  why.points[PointState::kOutOfView] = first + 4;
+  why.visible_share = 0.5;
+  why.news = 0.25;
+  why.moved = -0.125 * first;
+  why.bounded = first > 20;
+  return why;
+}
+
 /// A belief with one of everything, at frame 3; numbers that are short in decimals.
 inline BeliefState belief_of_a_kitchen() {
   BeliefState belief;
@@ -16,6 +31,8 @@ inline BeliefState belief_of_a_kitchen() {
 
   FloorBelief floor;
   floor.height_m = 0.25;
+  floor.evidence = Evidence::kOccluded;
+  floor.why = account_from(10);
   floor.points = std::make_shared<PointList>(PointList{{1, 2, 0}, {2, 2, 0}});
   belief.floor = floor;
 
@@ -26,6 +43,8 @@ inline BeliefState belief_of_a_kitchen() {
   wall.segment_end_m = {5, 1.5};
   wall.points = std::make_shared<PointList>(PointList{{5, 0, 1}});
   wall.label = LabelCode{2001};
+  wall.evidence = Evidence::kOutOfView;
+  wall.why = account_from(20);
   belief.walls = {wall};
 
   ObjectBelief object;
@@ -34,6 +53,7 @@ inline BeliefState belief_of_a_kitchen() {
   object.pose_world.mean = Se3(Eigen::Quaterniond(0, 0, 0, 1), {2, 0, 0.5});
   object.pose_world.covariance.diagonal() << 1, 2, 3, 4, 5, 6;
   object.evidence = Evidence::kSeenThrough;
+  object.why = account_from(30);
   belief.objects = {object};
 
   auto cluster = std::make_shared<StuffCluster>();
@@ -46,6 +66,7 @@ inline BeliefState belief_of_a_kitchen() {
   stuff.history_count = 3;
   stuff.recent_clusters = {cluster};
   stuff.label = LabelCode{4003};
+  stuff.why = account_from(40);
   belief.stuff = {stuff};
   return belief;
 }

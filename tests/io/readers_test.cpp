@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@ namespace {
 
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string replaced(std::string text, std::string const& what, std::string const& by) {
   std::size_t const at = text.find(what);
@@ -82,6 +85,44 @@ TEST_F(Readers, BeliefsComeBackToTheSameBytes) {
   EXPECT_EQ(belief_json(beliefs[0]) + "\n\n" + belief_json(beliefs[1]) + "\n", lines);
 }
 
+// Infinite log-odds are null in JSON.
+TEST_F(Readers, LogOddsComeBackToTheBit) {
+  BeliefState belief = belief_of_a_kitchen();
+  belief.floor->log_odds = 1.0 / 3.0;
+  belief.walls[0].log_odds = -4.6;
+  belief.objects[0].log_odds = -std::numeric_limits<double>::infinity();
+  belief.stuff[0].log_odds = 40.0;
+  write_text(path(), belief_json(summary_of(belief)) + "\n");
+  BeliefSummary const read = read_beliefs(path()).at(0);
+  EXPECT_EQ(read.floor->log_odds, belief.floor->log_odds);
+  EXPECT_EQ(read.floor->probability, probability_of(1.0 / 3.0));
+  EXPECT_EQ(read.floor->evidence, Evidence::kOccluded);
+  EXPECT_EQ(read.walls[0].log_odds, belief.walls[0].log_odds);
+  EXPECT_EQ(read.objects[0].log_odds, belief.objects[0].log_odds);
+  EXPECT_EQ(read.stuff[0].log_odds, belief.stuff[0].log_odds);
+  EXPECT_EQ(read.stuff[0].why->points, belief.stuff[0].why.points);
+  EXPECT_EQ(read.stuff[0].why->moved, belief.stuff[0].why.moved);
+}
+
+// Lines of before there was a why: nothing of it is made up.
+TEST_F(Readers, OlderBeliefsStayAsTheyAre) {
+  BeliefSummary old = summary_of(belief_of_a_kitchen());
+  old.objects[0].probability = 0.9;
+  old.floor->why.reset();
+  old.walls[0].why.reset();
+  old.objects[0].why.reset();
+  old.stuff[0].why.reset();
+  std::string const line = belief_json(old);
+  EXPECT_THAT(line, Not(HasSubstr("why")));
+  EXPECT_THAT(line, Not(HasSubstr("log_odds")));
+  EXPECT_THAT(line, HasSubstr("\"points\":2},\"walls\""));
+  write_text(path(), line + "\n");
+  BeliefSummary const read = read_beliefs(path()).at(0);
+  EXPECT_EQ(belief_json(read), line);
+  EXPECT_FALSE(read.floor->why || read.walls[0].why || read.objects[0].why || read.stuff[0].why);
+  EXPECT_NEAR(read.objects[0].log_odds, std::log(9.0), 1e-12);
+}
+
 TEST_F(Readers, TruthComesBackToTheSameBytes) {
   std::string const line = truth_json(kitchen_truth());
   write_text(path(), line + "\n");
@@ -108,12 +149,19 @@ TEST_F(Readers, WhatIsNoBeliefIsToldByItsLine) {
   EXPECT_EQ(error(later), "no error");
   EXPECT_EQ(error(good), "2: frame: must come after 3");
   EXPECT_EQ(error(later.substr(0, 40)), "2: is not JSON from character 41 on");
+  EXPECT_EQ(error_of(good + "\n" + later.substr(0, 40), read_beliefs),
+            "2: is not JSON from character 41 on: the file was cut short; without this line the "
+            "rest can be read");
+  EXPECT_EQ(error_of(good + "\nx", read_beliefs), "2: is not JSON from character 1 on");
   EXPECT_EQ(error(replaced(later, "\"schema\":1", "\"schema\":2")),
             "2: schema: only 1 is known: written by another version of credo?");
   EXPECT_EQ(error(replaced(later, "\"probability\":0.5", "\"probability\":1.5")),
-            "2: objects[0].probability: must be in [0, 1]");
-  EXPECT_EQ(error(replaced(later, "seen_through", "smelt")),
+            "2: floor.probability: must be in [0, 1]");
+  EXPECT_EQ(error(replaced(later, "\"seen_through\",", "\"smelt\",")),
             "2: objects[0].evidence: 'smelt' is no evidence");
+  EXPECT_EQ(error(replaced(later, "\"agrees\":30", "\"agrees\":-1")),
+            "2: objects[0].why.agrees: must be a whole number, 0 or above");
+  EXPECT_EQ(error(replaced(later, "\"log_odds\":0.0,", "")), "2: floor.log_odds: is missing");
   EXPECT_EQ(error(replaced(later, "\"history\":3", "\"history\":-3")),
             "2: stuff[0].history: must be a whole number, 0 or above");
   EXPECT_EQ(error(replaced(later, "[[5.0,-1.0],[5.0,1.5]]", "[[5.0,-1.0]]")),

@@ -15,6 +15,20 @@ bool shows_something(StuffCluster const& cluster) {
          !cluster.bounds_world.isEmpty();
 }
 
+/// As seen or not seen in this frame, and before.
+void believe(StuffBelief& item, Evidence before, double news, ExistenceConfig const& config) {
+  ExistenceConfig unbounded = config;
+  unbounded.max_log_odds = 0.0;
+  double const log_odds = updated_log_odds(item.log_odds, before, item.evidence, news, unbounded);
+  bool const changed = (item.evidence == Evidence::kSeen) != (before == Evidence::kSeen);
+  double const bounded = bounded_log_odds(log_odds, config);
+  item.why = {};
+  item.why.news = changed ? 1.0 : news;
+  item.why.moved = bounded - item.log_odds;
+  item.why.bounded = bounded != log_odds;
+  item.log_odds = bounded;
+}
+
 void append(StuffBelief& item, StuffCluster const& cluster, StuffFusionConfig const& config) {
   item.recent_clusters.push_back(std::make_shared<StuffCluster const>(cluster));
   ++item.history_count;
@@ -53,7 +67,7 @@ FusedStuff fused_stuff(FusedStuff known, std::vector<StuffCluster> const& seen,
       item.evidence = Evidence::kSeen;
       is_new[*match] = false;
     }
-    item.log_odds = updated_log_odds(item.log_odds, before, item.evidence, news, config.existence);
+    believe(item, before, news, config.existence);
   }
   std::erase_if(stuff, [&](StuffBelief const& item) {
     return probability_of(item.log_odds) < config.existence.min_probability;
@@ -63,6 +77,7 @@ FusedStuff fused_stuff(FusedStuff known, std::vector<StuffCluster> const& seen,
       StuffBelief& item = stuff.emplace_back();
       item.id = known.next_id++;
       item.log_odds = log_odds_of(config.prior_probability);
+      item.why.news = 1.0;
       append(item, seen[j], config.stuff);
     }
   }

@@ -17,6 +17,13 @@ constexpr double kMostThroughSeen = 0.35;
 constexpr double kLeastThroughGone = 0.6;
 constexpr double kLeastThroughSurelyGone = 0.85;
 constexpr double kLeastVisibleSurelyGone = 0.3;
+
+/// Of what is usually seen of it, the part that is seen or seen through.
+double visible_share(PointCounts const& look, double most_agreeing) {
+  int const told = look[PointState::kAgrees] + look[PointState::kSeenThrough];
+  return std::min(1.0, told / (kUsuallySeen * std::max(1.0, most_agreeing)));
+}
+
 /// P(look | there) and P(look | not there).
 std::pair<double, double> likelihoods(Finding const& finding) {
   double const s = std::min(1.0, finding.visible / 0.5);
@@ -37,7 +44,7 @@ std::pair<double, double> likelihoods(Finding const& finding) {
 std::optional<Finding> finding_of(PointCounts const& look, double most_agreeing, bool matched) {
   int const agrees = look[PointState::kAgrees];
   int const told = agrees + look[PointState::kSeenThrough];
-  double const visible = told / (kUsuallySeen * std::max(1.0, most_agreeing));
+  double const visible = visible_share(look, most_agreeing);
   if (told < kLeastPoints || visible <= kLeastVisible) {
     return std::nullopt;
   }
@@ -62,6 +69,24 @@ double likelihood_ratio(Finding const& finding) {
 double log_odds_step(Finding const& finding, double counts) {
   auto const [if_there, if_not] = likelihoods(finding);
   return std::log((1.0 - counts + counts * if_there) / (1.0 - counts + counts * if_not));
+}
+
+void raise_to(StuffBelief& item, double least_log_odds) {
+  double const before = item.log_odds;
+  item.log_odds = std::max(before, least_log_odds);
+  item.why.moved += item.log_odds - before;
+}
+
+Account account_of(PointCounts const& look, double most_agreeing) {
+  return {.points = look, .visible_share = visible_share(look, most_agreeing)};
+}
+
+Account account_of_new(StuffModel const& model) {
+  Account why;
+  why.visible_share = 1.0;
+  why.news = 1.0;
+  why.points[PointState::kAgrees] = static_cast<int>(model.points.size());
+  return why;
 }
 
 Evidence evidence_of(PointCounts const& look, std::optional<Finding> const& finding) {

@@ -29,16 +29,25 @@ struct Finding {
 
 /// Of a thing, a wall or the floor: Bayes' rule in log-odds, bounded. The more of a thing is seen,
 /// or seen through, the more it counts; what a look repeats of the one before counts by `news`
-/// (novelty), a change in full.
+/// (novelty), a change in full. The thing's account has that part, and by how much it moved.
 template <typename Thing>
 void believe(Thing& thing, Finding const& finding, Look const& now, double news,
              ExistenceConfig const& config) {
   bool const changed = (finding.verdict == Verdict::kSeen) != (thing.verdict == Verdict::kSeen);
-  double const step = log_odds_step(finding, changed ? 1.0 : news);
+  thing.why.news = changed ? 1.0 : news;
+  double const step = log_odds_step(finding, thing.why.news);
   add_step(thing.log_odds, step, thing.why, config);
   thing.verdict = finding.verdict;
   thing.last_look = now;
 }
+
+/// Believes a thing at least so much, and puts the jump to its account.
+void raise_to(StuffBelief& item, double least_log_odds);
+
+/// Of a look by itself: it has moved nothing yet.
+[[nodiscard]] Account account_of(PointCounts const& look, double most_agreeing);
+/// Of a thing that was made of what is seen: all of it is.
+[[nodiscard]] Account account_of_new(StuffModel const& model);
 
 /// Why its probability moved, or, without a finding, did not: by what most of its points met.
 [[nodiscard]] Evidence evidence_of(PointCounts const& look, std::optional<Finding> const& finding);

@@ -138,6 +138,7 @@ private:
     bool const matched = !labels.empty();
     std::optional<Finding> const finding = finding_of(seen.counts, item.most_agreeing, matched);
     item.evidence = evidence_of(seen.counts, finding);
+    item.why = account_of(seen.counts, item.most_agreeing);
     Eigen::Vector3d const middle = item.latest().centroid_world.cast<double>();
     news_[i] = novelty(view_change(item.last_look, now_), middle, config_.existence);
     if (finding) {
@@ -212,8 +213,7 @@ private:
       item.evidence = Evidence::kSeen;
       item.verdict = Verdict::kSeen;
       item.last_look = now_;
-      item.log_odds = std::max(
-          item.log_odds, birth_log_odds(seen.thickness_blocks, config_.births, config_.existence));
+      raise_to(item, birth_log_odds(seen.thickness_blocks, config_.births, config_.existence));
       ++item.history_count;
       begin_model(item, seen);
       given_to_[found.cluster] = static_cast<std::int32_t>(found.item);
@@ -345,8 +345,11 @@ private:
     if (!first.label) {
       first.label = second.label;
       first.evidence = second.evidence;
+      double const moved = first.why.moved;
+      first.why = second.why;
+      first.why.moved = moved;
     }
-    first.log_odds = std::max(first.log_odds, second.log_odds);
+    raise_to(first, second.log_odds);
     first.most_agreeing = std::max(first.most_agreeing, second.most_agreeing);
     set_model(first, fused_model(*first.model, points_world),
               std::max(first.latest().pixel_count, second.latest().pixel_count));
@@ -369,6 +372,7 @@ private:
     item.history_count = 1;
     item.last_look = now_;
     begin_model(item, clusters_[c]);
+    item.why = account_of_new(*item.model);
   }
 
   /// A cluster that showed to be a thing of its own, and what is believed of that.

@@ -29,6 +29,7 @@ void begin(Surface& surface, Look const& now, FusionConfig const& config) {
   surface.log_odds = log_odds_of(config.new_probability);
   surface.last_look = now;
   surface.evidence = Evidence::kSeen;
+  surface.why = {.visible_share = 1.0, .news = 1.0};
 }
 
 template <typename Surface>
@@ -37,7 +38,7 @@ void look_again(Surface& surface, PointCounts const& counts, bool is_shown, Look
   std::optional<Finding> const finding = finding_of(counts, surface.most_agreeing, is_shown);
   Eigen::Vector3d const middle = centroid_of(*surface.points);
   double const news = novelty(view_change(surface.last_look, now), middle, config.existence);
-  surface.why = {.points = counts, .news = news};
+  surface.why = account_of(counts, surface.most_agreeing);
   surface.evidence = evidence_of(counts, finding);
   if (finding) {
     believe(surface, *finding, now, news, config.existence);

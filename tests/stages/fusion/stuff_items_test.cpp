@@ -23,14 +23,34 @@ constexpr LabelCode kFirst = kFirstStuff;
 constexpr LabelCode kSecond = kFirstStuff + 1;
 constexpr std::int64_t kFrame_ns = 33'333'333;
 
+/// What each thing's account says is what happened to its log-odds; nothing of a thing is told
+/// unless it is seen or seen through.
+void expect_accounted(std::vector<StuffBelief> const& before,
+                      std::vector<StuffBelief> const& after) {
+  for (StuffBelief const& item : after) {
+    auto const same = std::ranges::find(before, item.id, &StuffBelief::id);
+    double const was = same == before.end() ? item.log_odds : same->log_odds;
+    EXPECT_NEAR(item.log_odds, was + item.why.moved, 1e-12) << item.id;
+    bool const told = item.evidence == Evidence::kSeen || item.evidence == Evidence::kSeenThrough;
+    if (same == before.end() || !told) {
+      EXPECT_EQ(item.why.moved, 0.0) << item.id;
+    }
+    EXPECT_EQ(item.why.news > 0.0, told) << item.id;
+    EXPECT_GE(item.why.visible_share, 0.0);
+    EXPECT_LE(item.why.visible_share, 1.0);
+  }
+}
+
 /// A belief that is shown one view after the other, at 30 Hz.
 class Room {
 public:
   FusedStuff const& show(View view, int times = 1) {
     for (int k = 0; k < times; ++k) {
       view.stamp_ns = kFrame_ns * frame_++;
+      std::vector<StuffBelief> const before = stuff_.stuff;
       stuff_ =
           fused_items(std::move(stuff_), test::segmentation_of(view), KnownPlaces({}, {}), config_);
+      expect_accounted(before, stuff_.stuff);
     }
     return stuff_;
   }
@@ -99,10 +119,60 @@ TEST(StuffItems, WhatIsGoneIsRemovedAsSoonHoweverLongItWasSeen) {
   EXPECT_LE(looks[0], 15);
 }
 
+TEST(StuffItems, WhatIsNewHasMovedNothing) {
+  Room room;
+  room.show({.boards = {{kFirst}}});
+  Account const& why = room.stuff()[0].why;
+  EXPECT_EQ(why.moved, 0.0);
+  EXPECT_EQ(why.news, 1.0);
+  EXPECT_EQ(why.visible_share, 1.0);
+  EXPECT_FALSE(why.bounded);
+  EXPECT_EQ(why.points[PointState::kAgrees],
+            static_cast<int>(room.stuff()[0].model->points.size()));
+}
+
+TEST(StuffItems, TheAccountTellsOfEveryPoint) {
+  Room room;
+  room.show({.boards = {{kFirst}}}, 5);
+  auto const points = static_cast<int>(room.stuff()[0].model->points.size());
+  double const news = 1.0 - std::exp(-1e-9 * static_cast<double>(kFrame_ns) / 0.25);
+  EXPECT_EQ(room.stuff()[0].why.points[PointState::kAgrees], points);
+  EXPECT_NEAR(room.stuff()[0].why.news, news, 1e-12);
+  // As seen from the camera, three quarters of it are hidden.
+  room.show({.boards = {{kFirst}, {kSecond, -0.1, -0.1, 0.2, 0.4, 1.0}}});
+  Account const some = room.stuff()[0].why;
+  EXPECT_NEAR(some.points[PointState::kOccluded], 3 * points / 4, points / 20);
+  EXPECT_EQ(some.points[PointState::kAgrees] + some.points[PointState::kOccluded], points);
+  EXPECT_NEAR(some.visible_share, some.points[PointState::kAgrees] / (0.8 * points), 1e-12);
+  // Then all of it is seen through: news in full.
+  room.show({});
+  Account const through = room.stuff()[0].why;
+  EXPECT_EQ(through.points[PointState::kSeenThrough], points);
+  EXPECT_EQ(through.news, 1.0);
+  EXPECT_LT(through.moved, -5.0);
+}
+
+// At the bound, what would move it on moves it less, and in the end not at all.
+TEST(StuffItems, TheAccountTellsOfTheBound) {
+  Room room;
+  room.show({.boards = {{kFirst}}});
+  while (room.stuff()[0].log_odds < 4.6) {
+    EXPECT_FALSE(room.stuff()[0].why.bounded);
+    room.show({.boards = {{kFirst}}});
+  }
+  EXPECT_TRUE(room.stuff()[0].why.bounded);
+  EXPECT_GT(room.stuff()[0].why.moved, 0.0);
+  room.show({.boards = {{kFirst}}});
+  EXPECT_TRUE(room.stuff()[0].why.bounded);
+  EXPECT_EQ(room.stuff()[0].why.moved, 0.0);
+  EXPECT_GT(room.stuff()[0].why.news, 0.0);
+}
+
 struct Unseen {
   char const* name;
   View view;
   Evidence evidence;
+  PointState points;
 };
 
 class NothingOfItIsSeen : public testing::TestWithParam<Unseen> {};
@@ -116,17 +186,22 @@ TEST_P(NothingOfItIsSeen, AndItsLogOddsStayToTheBit) {
     ASSERT_EQ(bits(room.stuff()[0].log_odds), bits(before));
     ASSERT_EQ(room.stuff()[0].evidence, GetParam().evidence);
     ASSERT_EQ(room.stuff()[0].label, std::nullopt);
+    ASSERT_EQ(room.stuff()[0].why.moved, 0.0);
+    ASSERT_EQ(room.stuff()[0].why.points[GetParam().points],
+              static_cast<int>(room.stuff()[0].model->points.size()));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, NothingOfItIsSeen,
-                         testing::Values(Unseen{"Hidden",
-                                                {.boards = {{kFirst},
-                                                            {kSecond, -0.1, -0.1, 0.4, 0.4, 1.0}}},
-                                                Evidence::kOccluded},
-                                         Unseen{"OutOfView", {.x_m = 2.0}, Evidence::kOutOfView},
-                                         Unseen{"NoDepth", {.blind_px = 120}, Evidence::kNotSeen}),
-                         [](auto const& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Ways, NothingOfItIsSeen,
+    testing::Values(Unseen{"Hidden",
+                           {.boards = {{kFirst}, {kSecond, -0.1, -0.1, 0.4, 0.4, 1.0}}},
+                           Evidence::kOccluded,
+                           PointState::kOccluded},
+                    Unseen{"OutOfView", {.x_m = 2.0}, Evidence::kOutOfView, PointState::kOutOfView},
+                    Unseen{
+                        "NoDepth", {.blind_px = 120}, Evidence::kNotSeen, PointState::kUnmeasured}),
+    [](auto const& instance) { return instance.param.name; });
 
 TEST(StuffItems, WhatIsHalfHiddenIsStillSeen) {
   Room room;
@@ -272,6 +347,8 @@ TEST(StuffItems, WhatIsMovedKeepsItsName) {
   EXPECT_EQ(room.stuff()[0].label, kFirst);
   EXPECT_NEAR(room.stuff()[0].latest().centroid_world.x(), 0.4F, 0.01F);
   EXPECT_GE(probability_of(room.stuff()[0].log_odds), 0.7);
+  EXPECT_EQ(room.stuff()[0].why.points[PointState::kAgrees], 0) << "where it was";
+  EXPECT_GT(room.stuff()[0].why.points[PointState::kSeenThrough], 0);
 }
 
 TEST(StuffItems, AnotherThingElsewhereIsNew) {

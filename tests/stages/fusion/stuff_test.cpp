@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <utility>
 
 #include "core/cloud.hpp"
@@ -51,6 +52,32 @@ TEST(FusedStuff, FadesAsInTheThesisWhenSeenTwice) {
       history({true, true, false, false, false, false, false}),
       ElementsAre(DoubleNear(0.99, 5e-4), DoubleNear(0.99947, 5e-6), DoubleNear(0.990, 5e-4),
                   DoubleNear(0.839, 5e-4), DoubleNear(0.215, 5e-4)));
+}
+
+TEST(FusedStuff, TheAccountIsWhatMovedLogOdds) {
+  FusionConfig config;
+  config.existence.max_log_odds = 5.2;
+  FusedStuff stuff = fused_stuff({}, {mug(4000, 0)}, {}, config);
+  EXPECT_EQ(stuff.stuff[0].why.moved, 0.0);
+  EXPECT_EQ(stuff.stuff[0].why.news, 1.0);
+  double const first = stuff.stuff[0].log_odds;
+  ViewChange change;
+  change.elapsed_s = 0.1;
+  change.camera_before_world = change.camera_now_world = {5, 0, 0};
+  double const news = 1.0 - std::exp(-0.1 / 0.25);
+  stuff = fused_stuff(std::move(stuff), {mug(4000, 0)}, change, config);
+  EXPECT_NEAR(stuff.stuff[0].why.news, news, 1e-12);
+  EXPECT_EQ(stuff.stuff[0].log_odds, first + stuff.stuff[0].why.moved);
+  EXPECT_FALSE(stuff.stuff[0].why.bounded);
+  double const second = stuff.stuff[0].log_odds;
+  stuff = fused_stuff(std::move(stuff), {mug(4000, 0)}, change, config);
+  EXPECT_TRUE(stuff.stuff[0].why.bounded);
+  EXPECT_NEAR(stuff.stuff[0].why.moved, 5.2 - second, 1e-12);
+  // Not seen after seen: news in full.
+  stuff = fused_stuff(std::move(stuff), {}, change, config);
+  EXPECT_EQ(stuff.stuff[0].why.news, 1.0);
+  EXPECT_NEAR(stuff.stuff[0].why.moved, -std::log(0.95 / 0.05), 1e-12);
+  EXPECT_FALSE(stuff.stuff[0].why.bounded);
 }
 
 TEST(FusedStuff, GrowsAHistoryThatIsCountedInFullAndKeptInPart) {
