@@ -179,10 +179,48 @@ TEST(StuffItems, WhatShowsAsOneForLongBecomesOne) {
   Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
   room.show({.boards = {left, right}});
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
-  room.show({.boards = {{kFirst}}}, 5);
+  room.show({.boards = {{kFirst}}}, 4);
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
-  room.show({.boards = {{kFirst}}}, 60);
+  room.show({.boards = {{kFirst}}}, 2);
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
+// The longer the two showed by themselves, up to some twelve looks, the longer it takes.
+TEST(StuffItems, WhatShowedInTwoForLongStaysTwoForLonger) {
+  Room room;
+  Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
+  room.show({.boards = {left, right}}, 30);
+  room.show({.boards = {{kFirst}}}, 7);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {{kFirst}}}, 2);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
+// A segmentation that cannot decide shows one thing; one that errs now and then shows two.
+TEST(StuffItems, WhatShowsAsOneEverySecondTimeIsOneAndWhatHardlyEverDoesIsTwo) {
+  Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
+  for (int const times_apart : {1, 9}) {
+    Room room;
+    for (int k = 0; k < 12; ++k) {
+      room.show({.boards = {left, right}}, times_apart);
+      room.show({.boards = {{kFirst}}});
+    }
+    EXPECT_EQ(room.ids().size(), times_apart == 1 ? 1U : 2U);
+  }
+}
+
+// The larger one that came later keeps its name.
+TEST(StuffItems, OfTwoThatAreOneTheBetterKnownKeepsItsName) {
+  Room room;
+  Board const left{kFirst, 0.0, 0.0, 0.05, 0.2};
+  Board const right{kSecond, 0.05, 0.0, 0.15, 0.2};
+  room.show({.boards = {left}});
+  room.show({.boards = {left, right}}, 3);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {{kFirst}}}, 10);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(2U));
 }
 
 // A magazine on a table: what is measured agrees with the table, too.
