@@ -19,8 +19,8 @@ inline constexpr std::uint32_t kKnownThings = 0;
 [[nodiscard]] bool shows_as_known(StuffBelief& item, double news);
 
 /// A look in which it showed by itself, and so did those of `stuff` that it might be one with. It
-/// takes four such looks to undo one of the others: cut in two now and then is one thing, that
-/// shows as one only now and then is two.
+/// takes five such looks to undo one of the others: what shows as one every second time is one
+/// thing, what does so only now and then is two.
 void shows_alone(StuffBelief& item, std::vector<StuffBelief> const& stuff, double news);
 
 /// How much was seen of it, how often: square metres of surface times looks.
