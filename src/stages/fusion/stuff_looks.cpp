@@ -1,6 +1,11 @@
 #include "stages/fusion/stuff_looks.hpp"
 
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -29,15 +34,23 @@ PointState state_of(float point_m, float measured_m, float nearest_m) {
   return nearest_m > point_m + tolerance_m ? PointState::kSeenThrough : PointState::kOccluded;
 }
 
+/// What of the thing that is looked at falls on a cluster.
+ClusterShare& share_of(LabelCode label, StuffLook& look, std::vector<std::int32_t>& places) {
+  std::int32_t& place = places[place_of(label)];
+  if (place < 0) {
+    place = static_cast<std::int32_t>(look.shares.size());
+    look.shares.push_back({.label = share_label(label)});
+  }
+  return look.shares[static_cast<std::size_t>(place)];
+}
+
 }  // namespace
 
 StuffLooks::StuffLooks(Sight const& sight, Se3 const& T_world_camera,
                        std::vector<StuffBelief> const& stuff)
     : sight_(sight),
-      owners_(sight.depth_m.width(), sight.depth_m.height(), -1),
-      owner_distance_m_(sight.depth_m.width(), sight.depth_m.height(),
-                        std::numeric_limits<float>::infinity()),
-      marked_by_(sight.depth_m.width(), sight.depth_m.height(), -1) {
+      looks_(stuff.size()),
+      owners_(sight.depth_m.width(), sight.depth_m.height(), -1) {
   Se3 const T_camera_world = T_world_camera.inverse();
   R_camera_world_ = T_camera_world.rotation().toRotationMatrix().cast<float>();
   t_camera_world_ = T_camera_world.translation().cast<float>();
@@ -50,11 +63,54 @@ StuffLooks::StuffLooks(Sight const& sight, Se3 const& T_world_camera,
   for (LabelCode const label : sight.labels) {
     places = std::max(places, place_of(label) + 1);
   }
-  share_of_label_.assign(places, -1);
-  looks_.reserve(stuff.size());
-  for (StuffBelief const& item : stuff) {
-    looks_.push_back(look_at(*item.model, static_cast<std::int32_t>(looks_.size())));
+  int const width = sight.depth_m.width();
+  int const height = sight.depth_m.height();
+  tbb::enumerable_thread_specific<Desk> desks([&] {
+    return Desk{{width, height, -1}, std::vector<std::int32_t>(places, -1), {}};
+  });
+  std::vector<std::vector<Claim>> claims(stuff.size());
+  // What this waits for is its own, never another frame's work.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, stuff.size(), [&](std::size_t i) {
+      Desk& desk = desks.local();
+      desk.claims.clear();
+      looks_[i] = look_at(stuff[i], static_cast<std::int32_t>(i), desk);
+      claims[i] = desk.claims;
+    });
+  });
+  // In the belief's order: of two that fit a block equally well it is the first one's.
+  Grid<float> owner_distance_m(width, height, std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    for (Claim const& claim : claims[i]) {
+      if (claim.distance_m < owner_distance_m[claim.block]) {
+        owner_distance_m[claim.block] = claim.distance_m;
+        owners_[claim.block] = static_cast<std::int32_t>(i);
+      }
+    }
   }
+}
+
+// A box is convex: where all its corners lie beyond one edge of the image, so does what is in it.
+// The margin is for what rounding makes of a point.
+bool StuffLooks::is_out_of_view(Eigen::AlignedBox3f const& bounds_world) const {
+  constexpr float kMargin = 1e-3F;
+  auto const width = static_cast<float>(sight_.depth_m.width());
+  auto const height = static_cast<float>(sight_.depth_m.height());
+  std::array<int, 5> beyond{};
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector3f const p =
+        R_camera_world_ *
+            bounds_world.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)) +
+        t_camera_world_;
+    float const u_z = focal_blocks_.x() * p.x() + centre_blocks_.x() * p.z();
+    float const v_z = focal_blocks_.y() * p.y() + centre_blocks_.y() * p.z();
+    beyond[0] += p.z() < -kMargin ? 1 : 0;
+    beyond[1] += u_z < -kMargin * width ? 1 : 0;
+    beyond[2] += v_z < -kMargin * height ? 1 : 0;
+    beyond[3] += u_z - width * p.z() > kMargin * width ? 1 : 0;
+    beyond[4] += v_z - height * p.z() > kMargin * height ? 1 : 0;
+  }
+  return std::ranges::find(beyond, 8) != beyond.end();
 }
 
 std::optional<Pixel> StuffLooks::block_of(Eigen::Vector3f const& p_camera) const {
@@ -68,44 +124,37 @@ std::optional<Pixel> StuffLooks::block_of(Eigen::Vector3f const& p_camera) const
   return inside ? std::optional(Pixel{static_cast<int>(u), static_cast<int>(v)}) : std::nullopt;
 }
 
-ClusterShare& StuffLooks::share_of(LabelCode label, StuffLook& look) {
-  std::int32_t& place = share_of_label_[place_of(label)];
-  if (place < 0) {
-    place = static_cast<std::int32_t>(look.shares.size());
-    look.shares.push_back({.label = share_label(label)});
-  }
-  return look.shares[static_cast<std::size_t>(place)];
-}
-
 // A point stands for the surface around it, as far as the next one.
 void StuffLooks::mark_around(Pixel block, float point_m, float spacing_m, std::int32_t item,
-                             StuffLook& look) {
+                             StuffLook& look, Desk& desk) const {
   auto const radius =
       static_cast<int>(std::lround(spacing_m * focal_blocks_.x() / (2.0F * point_m)));
   float const tolerance_m = agreement_m(point_m);
   for (int v = block.v - radius; v <= block.v + radius; ++v) {
     for (int u = block.u - radius; u <= block.u + radius; ++u) {
-      if (!sight_.depth_m.contains({u, v}) || marked_by_[{u, v}] == item) {
+      if (!sight_.depth_m.contains({u, v}) || desk.marked_by[{u, v}] == item) {
         continue;
       }
       float const distance_m = std::abs(sight_.depth_m[{u, v}] - point_m);
       if (distance_m >= tolerance_m) {
         continue;
       }
-      marked_by_[{u, v}] = item;
+      desk.marked_by[{u, v}] = item;
       ++look.blocks;
-      ++share_of(sight_.labels[{u, v}], look).blocks;
-      if (distance_m < owner_distance_m_[{u, v}]) {
-        owner_distance_m_[{u, v}] = distance_m;
-        owners_[{u, v}] = item;
-      }
+      ++share_of(sight_.labels[{u, v}], look, desk.share_of_label).blocks;
+      desk.claims.push_back({sight_.depth_m.index({u, v}), distance_m});
     }
   }
 }
 
-StuffLook StuffLooks::look_at(StuffModel const& model, std::int32_t item) {
+StuffLook StuffLooks::look_at(StuffBelief const& thing, std::int32_t item, Desk& desk) const {
+  StuffModel const& model = *thing.model;
   StuffLook look;
   look.points.resize(model.points.size());
+  if (is_out_of_view(thing.latest().bounds_world)) {
+    look.counts[PointState::kOutOfView] = static_cast<int>(model.points.size());
+    return look;
+  }
   for (std::size_t i = 0; i < model.points.size(); ++i) {
     PointLook& point = look.points[i];
     Eigen::Vector3f const p_camera = R_camera_world_ * model.points[i].p_world + t_camera_world_;
@@ -114,16 +163,16 @@ StuffLook StuffLooks::look_at(StuffModel const& model, std::int32_t item) {
       point.block = static_cast<std::int32_t>(sight_.depth_m.index(*block));
       point.state = state_of(p_camera.z(), measured_m, sight_.nearest_m[*block]);
       if (point.state == PointState::kAgrees) {
-        ++share_of(sight_.labels[*block], look).agreeing;
-        mark_around(*block, p_camera.z(), model.spacing_m, item, look);
+        ++share_of(sight_.labels[*block], look, desk.share_of_label).agreeing;
+        mark_around(*block, p_camera.z(), model.spacing_m, item, look, desk);
       } else if (point.state == PointState::kOccluded && measured_m < p_camera.z()) {
-        ++share_of(sight_.labels[*block], look).hidden;
+        ++share_of(sight_.labels[*block], look, desk.share_of_label).hidden;
       }
     }
     ++look.counts[point.state];
   }
   for (ClusterShare const& share : look.shares) {
-    share_of_label_[place_of(share.label)] = -1;
+    desk.share_of_label[place_of(share.label)] = -1;
   }
   std::ranges::sort(look.shares, {}, &ClusterShare::label);
   return look;

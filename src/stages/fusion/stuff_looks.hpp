@@ -53,12 +53,28 @@ public:
   [[nodiscard]] Grid<std::int32_t> const& owners() const { return owners_; }
 
 private:
-  [[nodiscard]] StuffLook look_at(StuffModel const& model, std::int32_t item);
+  /// A block that agrees with a thing, and by how much.
+  struct Claim {
+    std::size_t block = 0;
+    float distance_m = 0.0F;
+  };
+  /// What one thread needs to look at one thing after the other.
+  struct Desk {
+    /// The last thing that marked a block.
+    Grid<std::int32_t> marked_by;
+    /// Of the thing that is looked at; places in its shares by label, -1 where there is none.
+    std::vector<std::int32_t> share_of_label;
+    std::vector<Claim> claims;
+  };
+
+  /// Claims are left on the desk.
+  [[nodiscard]] StuffLook look_at(StuffBelief const& thing, std::int32_t item, Desk& desk) const;
+  /// Whether all that lies within a thing's bounds is out of view.
+  [[nodiscard]] bool is_out_of_view(Eigen::AlignedBox3f const& bounds_world) const;
   /// The block that a point falls on; none out of view.
   [[nodiscard]] std::optional<Pixel> block_of(Eigen::Vector3f const& p_camera) const;
-  /// What of the thing that is looked at falls on a cluster.
-  ClusterShare& share_of(LabelCode label, StuffLook& look);
-  void mark_around(Pixel block, float point_m, float spacing_m, std::int32_t item, StuffLook& look);
+  void mark_around(Pixel block, float point_m, float spacing_m, std::int32_t item, StuffLook& look,
+                   Desk& desk) const;
 
   Sight const& sight_;
   Eigen::Matrix3f R_camera_world_;
@@ -68,11 +84,6 @@ private:
   Eigen::Vector2f centre_blocks_;
   std::vector<StuffLook> looks_;
   Grid<std::int32_t> owners_;
-  Grid<float> owner_distance_m_;
-  /// The last thing that marked a block.
-  Grid<std::int32_t> marked_by_;
-  /// Of the thing that is looked at; places in its shares by label, -1 where there is none.
-  std::vector<std::int32_t> share_of_label_;
 };
 
 /// How far a measured depth may lie from a point that it agrees with.
