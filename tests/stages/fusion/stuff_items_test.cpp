@@ -235,6 +235,41 @@ TEST(StuffItems, WhatLiesOnAThingIsAThingOfItsOwn) {
   EXPECT_EQ(room.stuff()[1].label, kSecond);
 }
 
+// A lid, raised above its box in one frame and not in the next.
+TEST(StuffItems, WhatIsAGoodPartOfAThingDoesNotLieOnIt) {
+  Room room;
+  Board const rim{kFirst, 0.0, 0.0, 0.2, 0.2};
+  Board const lid{kSecond, 0.03, 0.03, 0.14, 0.14, 1.499, kFirst};
+  room.show({.boards = {rim}}, 10);
+  room.show({.boards = {rim, lid}}, 2);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
+// One frame took the wall beside it for a part of it.
+TEST(StuffItems, WhatShowsAsSomethingElseLeavesTheModel) {
+  Room room;
+  Board const box{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const wall{kFirstWall, 0.12, 0.0, 0.08, 0.2};
+  room.show({.boards = {box, wall}}, 5);
+  room.show({.boards = {{kFirst}}});
+  EXPECT_GT(room.stuff()[0].latest().bounds_world.max().x(), 0.18F);
+  room.show({.boards = {box, wall}}, 5);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
+  EXPECT_LT(room.stuff()[0].latest().bounds_world.max().x(), 0.13F);
+}
+
+// Of a mug at the edge of what hides it, a strip shows in the table's cluster.
+TEST(StuffItems, WhatHardlyShowsDoesNotBecomeOneWithAnother) {
+  Room room;
+  Board const mug{kFirst, 0.0, 0.0, 0.2, 0.2};
+  Board const table{kSecond, 0.2, 0.0, 0.4, 0.2};
+  room.show({.boards = {mug, table}}, 3);
+  Board const in_front{kSecond + 1, -0.3, -0.3, 0.428, 0.8, 1.2};
+  Board const longer_table{kSecond, 0.1, 0.0, 0.5, 0.2};
+  room.show({.boards = {in_front, longer_table}}, 40);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U, 3U));
+}
+
 // A pose that is not quite right looks past most of it.
 TEST(StuffItems, WhatAClusterIsTakenForHasNotGone) {
   Room room;
