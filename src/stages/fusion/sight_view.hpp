@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <optional>
 
 #include "core/evidence.hpp"
@@ -57,6 +60,28 @@ public:
     bool const inside = u >= 0.0F && v >= 0.0F && u < static_cast<float>(sight_.depth_m.width()) &&
                         v < static_cast<float>(sight_.depth_m.height());
     return inside ? std::optional(Pixel{static_cast<int>(u), static_cast<int>(v)}) : std::nullopt;
+  }
+
+  /// Whether all that lies within a box is out of view. A box is convex: where all its corners lie
+  /// beyond one edge of the image, so does what is in it. The margin is for what rounding makes of
+  /// a point.
+  [[nodiscard]] bool is_out_of_view(Eigen::AlignedBox3f const& bounds_world) const {
+    constexpr float kMargin = 1e-3F;
+    auto const width = static_cast<float>(sight_.depth_m.width());
+    auto const height = static_cast<float>(sight_.depth_m.height());
+    std::array<int, 5> beyond{};
+    for (int corner = 0; corner < 8; ++corner) {
+      Eigen::Vector3f const p =
+          in_camera(bounds_world.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)));
+      float const u_z = focal_blocks_.x() * p.x() + centre_blocks_.x() * p.z();
+      float const v_z = focal_blocks_.y() * p.y() + centre_blocks_.y() * p.z();
+      beyond[0] += p.z() < -kMargin ? 1 : 0;
+      beyond[1] += u_z < -kMargin * width ? 1 : 0;
+      beyond[2] += v_z < -kMargin * height ? 1 : 0;
+      beyond[3] += u_z - width * p.z() > kMargin * width ? 1 : 0;
+      beyond[4] += v_z - height * p.z() > kMargin * height ? 1 : 0;
+    }
+    return std::ranges::find(beyond, 8) != beyond.end();
   }
 
   [[nodiscard]] PointState look_at(Eigen::Vector3f const& p_world) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "stages/fusion/stuff_looks.hpp"
 #include "stages/fusion/stuff_model.hpp"
 #include "stages/fusion/stuff_moves.hpp"
+#include "stages/fusion/stuff_one_with.hpp"
 #include "stages/fusion/stuff_split.hpp"
 
 namespace credo {
@@ -25,16 +27,12 @@ constexpr int kLeastBlocks = 12;
 constexpr double kLeastAgreement = 0.25;
 constexpr double kLeastShareOfCluster = 0.3;
 constexpr double kLeastShareOfThing = 0.4;
-// Carving.
-constexpr float kLeastMissed = 0.1F;
-constexpr float kMissedBeforeItself = 0.2F;
-constexpr float kMissedLessAgreeing = 0.5F;
 // Merging.
 constexpr int kLeastBlocksInAnother = 8;
 constexpr double kShareInAnother = 0.6;
-constexpr double kEnoughToMerge = 3.0;
-/// Stands for floor, walls and known objects; no thing's id.
-constexpr std::uint32_t kKnown = 0;
+constexpr double kLeastShown = 0.32;
+// What is so much of what a thing shows does not lie on it.
+constexpr double kGoodPart = 0.4;
 // A cluster that things explain by so much is none of its own.
 constexpr double kExplained = 0.7;
 
@@ -100,11 +98,20 @@ private:
     }
   }
 
-  /// Whether a cluster lies on this thing.
+  /// Whether a cluster lies on this thing and is not a part of it.
   [[nodiscard]] bool is_base_of(std::size_t item, LabelCode label) const {
     std::int32_t const base = cluster(label).lies_on;
     return base >= 0 &&
-           given_to_[static_cast<std::size_t>(base)] == static_cast<std::int32_t>(item);
+           given_to_[static_cast<std::size_t>(base)] == static_cast<std::int32_t>(item) &&
+           !is_good_part_of(item, label);
+  }
+
+  /// A lid, say, which the segmentation finds raised above its box in one frame and not in the
+  /// next.
+  [[nodiscard]] bool is_good_part_of(std::size_t item, LabelCode label) const {
+    auto const& shares = look(item).shares;
+    auto const share = std::ranges::find(shares, label, &ClusterShare::label);
+    return share != shares.end() && share->blocks > kGoodPart * look(item).blocks;
   }
 
   /// What a thing and a cluster have in common, of what both have; none where that is too little.
@@ -155,18 +162,7 @@ private:
   /// The model after a look at which it was found in those clusters.
   void learn(StuffBelief& item, std::size_t i, std::vector<LabelCode> labels) {
     StuffModel model = *item.model;
-    auto const missed = std::max(static_cast<float>(news_[i]), kLeastMissed);
-    for (std::size_t p = 0; p < model.points.size(); ++p) {
-      PointLook const& point = look(i).points[p];
-      float& count = model.points[p].missed;
-      if (point.state == PointState::kAgrees) {
-        count = std::max(0.0F, count - kMissedLessAgreeing);
-      } else if (point.state == PointState::kSeenThrough) {
-        LabelCode const behind = segmentation_.sight.labels[static_cast<std::size_t>(point.block)];
-        bool const itself = std::ranges::find(labels, behind) != labels.end();
-        count += itself ? kMissedBeforeItself * missed : missed;
-      }
-    }
+    count_misses(model, look(i), segmentation_.sight.labels, labels, news_[i]);
     // Points are as in the look until they are carved.
     SplitModel parted = split_model(std::move(model), look(i), segmentation_.sight.labels,
                                     *item.label, labels, news_[i]);
@@ -260,39 +256,37 @@ private:
     return static_cast<double>(at_known) > kExplained * static_cast<double>(seen.blocks.size());
   }
 
-  /// What shows again and again in another thing's clusters is one with it; what shows as floor,
-  /// wall or known object was that.
+  /// What shows in another thing's clusters is one with it, what shows as floor, wall or known
+  /// object was that, unless it shows by itself as well.
   void merge() {
     for (std::size_t j = 0; j < look_count(); ++j) {
       StuffBelief& item = known_.stuff[j];
       if (item.model == nullptr) {
         continue;
       }
-      if (item.label) {
-        for (OneWith& other : item.one_with) {
-          other.evidence -= news_[j];
-        }
-      } else if (mostly_in(j, shown_as_known(j))) {
-        if (one_with(item, kKnown, news_[j])) {
+      if (!item.label && mostly_in(j, shown_as_known(j))) {
+        if (shows_as_known(item, news_[j])) {
           forget(item);
         }
       } else if (std::optional<std::size_t> const host = host_of(j)) {
-        if (one_with(item, known_.stuff[*host].id, news_[j])) {
+        if (shows_enough(j) && are_one(j, *host)) {
           join(*host, j);
         }
+      } else if (item.label) {
+        shows_alone(item, known_.stuff, news_[j]);
       }
-      std::erase_if(item.one_with, [](OneWith const& other) { return other.evidence <= 0.0; });
     }
   }
 
-  /// Adds to what says that the thing is one with another; whether that is enough.
-  static bool one_with(StuffBelief& item, std::uint32_t id, double news) {
-    auto found = std::ranges::find(item.one_with, id, &OneWith::id);
-    if (found == item.one_with.end()) {
-      found = item.one_with.insert(found, {id, 0.0});
-    }
-    found->evidence += news;
-    return found->evidence > kEnoughToMerge;
+  /// Kept with the one that was known last, whichever shows in the other.
+  [[nodiscard]] bool are_one(std::size_t j, std::size_t host) {
+    std::uint32_t const first = known_.stuff[std::min(j, host)].id;
+    return shows_as_one(known_.stuff[std::max(j, host)], first, news_[j]);
+  }
+
+  /// Of a thing that is hardly in view nothing is learnt about what it is one with.
+  [[nodiscard]] bool shows_enough(std::size_t j) const {
+    return look(j).counts[PointState::kAgrees] > kLeastShown * known_.stuff[j].most_agreeing;
   }
 
   static void forget(StuffBelief& item) {
@@ -334,14 +328,13 @@ private:
     return std::nullopt;
   }
 
-  /// The one that was known first keeps its name.
+  /// The one of which more was seen keeps its name.
   void join(std::size_t a, std::size_t b) {
-    StuffBelief& first = known_.stuff[std::min(a, b)];
-    StuffBelief& second = known_.stuff[std::max(a, b)];
-    std::vector<Eigen::Vector3f> points_world;
-    for (SurfacePoint const& point : second.model->points) {
-      points_world.push_back(point.p_world);
+    if (amount_seen(*known_.stuff[a].model) < amount_seen(*known_.stuff[b].model)) {
+      std::swap(a, b);
     }
+    StuffBelief& first = known_.stuff[a];
+    StuffBelief& second = known_.stuff[b];
     if (!first.label) {
       first.label = second.label;
       first.evidence = second.evidence;
@@ -351,7 +344,7 @@ private:
     }
     raise_to(first, second.log_odds);
     first.most_agreeing = std::max(first.most_agreeing, second.most_agreeing);
-    set_model(first, fused_model(*first.model, points_world),
+    set_model(first, joined_model(*first.model, *second.model),
               std::max(first.latest().pixel_count, second.latest().pixel_count));
     forget(second);
   }

@@ -1,6 +1,11 @@
 #include "stages/fusion/stuff_looks.hpp"
 
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,28 +23,9 @@ std::size_t place_of(LabelCode label) {
   return is_stuff(label) ? label - kFirstStuff + std::size_t{2} : label >= kFloor ? 1 : 0;
 }
 
-}  // namespace
-
-StuffLooks::StuffLooks(Sight const& sight, Se3 const& T_world_camera,
-                       std::vector<StuffBelief> const& stuff)
-    : view_(sight, T_world_camera),
-      owners_(sight.depth_m.width(), sight.depth_m.height(), -1),
-      owner_distance_m_(sight.depth_m.width(), sight.depth_m.height(),
-                        std::numeric_limits<float>::infinity()),
-      marked_by_(sight.depth_m.width(), sight.depth_m.height(), -1) {
-  std::size_t places = 2;
-  for (LabelCode const label : sight.labels) {
-    places = std::max(places, place_of(label) + 1);
-  }
-  share_of_label_.assign(places, -1);
-  looks_.reserve(stuff.size());
-  for (StuffBelief const& item : stuff) {
-    looks_.push_back(look_at(*item.model, static_cast<std::int32_t>(looks_.size())));
-  }
-}
-
-ClusterShare& StuffLooks::share_of(LabelCode label, StuffLook& look) {
-  std::int32_t& place = share_of_label_[place_of(label)];
+/// What of the thing that is looked at falls on a cluster.
+ClusterShare& share_of(LabelCode label, StuffLook& look, std::vector<std::int32_t>& places) {
+  std::int32_t& place = places[place_of(label)];
   if (place < 0) {
     place = static_cast<std::int32_t>(look.shares.size());
     look.shares.push_back({.label = share_label(label)});
@@ -47,35 +33,75 @@ ClusterShare& StuffLooks::share_of(LabelCode label, StuffLook& look) {
   return look.shares[static_cast<std::size_t>(place)];
 }
 
+}  // namespace
+
+StuffLooks::StuffLooks(Sight const& sight, Se3 const& T_world_camera,
+                       std::vector<StuffBelief> const& stuff)
+    : view_(sight, T_world_camera),
+      looks_(stuff.size()),
+      owners_(sight.depth_m.width(), sight.depth_m.height(), -1) {
+  std::size_t places = 2;
+  for (LabelCode const label : sight.labels) {
+    places = std::max(places, place_of(label) + 1);
+  }
+  int const width = sight.depth_m.width();
+  int const height = sight.depth_m.height();
+  tbb::enumerable_thread_specific<Desk> desks([&] {
+    return Desk{{width, height, -1}, std::vector<std::int32_t>(places, -1), {}};
+  });
+  std::vector<std::vector<Claim>> claims(stuff.size());
+  // What this waits for is its own, never another frame's work.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, stuff.size(), [&](std::size_t i) {
+      Desk& desk = desks.local();
+      desk.claims.clear();
+      looks_[i] = look_at(stuff[i], static_cast<std::int32_t>(i), desk);
+      claims[i] = desk.claims;
+    });
+  });
+  // In the belief's order: of two that fit a block equally well it is the first one's.
+  Grid<float> owner_distance_m(width, height, std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    for (Claim const& claim : claims[i]) {
+      if (claim.distance_m < owner_distance_m[claim.block]) {
+        owner_distance_m[claim.block] = claim.distance_m;
+        owners_[claim.block] = static_cast<std::int32_t>(i);
+      }
+    }
+  }
+}
+
 // A point stands for the surface around it, as far as the next one.
 void StuffLooks::mark_around(Pixel block, float point_m, float spacing_m, std::int32_t item,
-                             StuffLook& look) {
+                             StuffLook& look, Desk& desk) const {
   auto const radius =
       static_cast<int>(std::lround(spacing_m * view_.focal_blocks() / (2.0F * point_m)));
   float const tolerance_m = agreement_m(point_m);
   for (int v = block.v - radius; v <= block.v + radius; ++v) {
     for (int u = block.u - radius; u <= block.u + radius; ++u) {
-      if (!view_.sight().depth_m.contains({u, v}) || marked_by_[{u, v}] == item) {
+      if (!view_.sight().depth_m.contains({u, v}) || desk.marked_by[{u, v}] == item) {
         continue;
       }
       float const distance_m = std::abs(view_.sight().depth_m[{u, v}] - point_m);
       if (distance_m >= tolerance_m) {
         continue;
       }
-      marked_by_[{u, v}] = item;
+      desk.marked_by[{u, v}] = item;
       ++look.blocks;
-      ++share_of(view_.sight().labels[{u, v}], look).blocks;
-      if (distance_m < owner_distance_m_[{u, v}]) {
-        owner_distance_m_[{u, v}] = distance_m;
-        owners_[{u, v}] = item;
-      }
+      ++share_of(view_.sight().labels[{u, v}], look, desk.share_of_label).blocks;
+      desk.claims.push_back({view_.sight().depth_m.index({u, v}), distance_m});
     }
   }
 }
 
-StuffLook StuffLooks::look_at(StuffModel const& model, std::int32_t item) {
+StuffLook StuffLooks::look_at(StuffBelief const& thing, std::int32_t item, Desk& desk) const {
+  StuffModel const& model = *thing.model;
   StuffLook look;
   look.points.resize(model.points.size());
+  if (view_.is_out_of_view(thing.latest().bounds_world)) {
+    look.counts[PointState::kOutOfView] = static_cast<int>(model.points.size());
+    return look;
+  }
   for (std::size_t i = 0; i < model.points.size(); ++i) {
     PointLook& point = look.points[i];
     Eigen::Vector3f const p_camera = view_.in_camera(model.points[i].p_world);
@@ -84,16 +110,16 @@ StuffLook StuffLooks::look_at(StuffModel const& model, std::int32_t item) {
       point.block = static_cast<std::int32_t>(view_.sight().depth_m.index(*block));
       point.state = state_of(p_camera.z(), measured_m, view_.sight().nearest_m[*block]);
       if (point.state == PointState::kAgrees) {
-        ++share_of(view_.sight().labels[*block], look).agreeing;
-        mark_around(*block, p_camera.z(), model.spacing_m, item, look);
+        ++share_of(view_.sight().labels[*block], look, desk.share_of_label).agreeing;
+        mark_around(*block, p_camera.z(), model.spacing_m, item, look, desk);
       } else if (point.state == PointState::kOccluded && measured_m < p_camera.z()) {
-        ++share_of(view_.sight().labels[*block], look).hidden;
+        ++share_of(view_.sight().labels[*block], look, desk.share_of_label).hidden;
       }
     }
     ++look.counts[point.state];
   }
   for (ClusterShare const& share : look.shares) {
-    share_of_label_[place_of(share.label)] = -1;
+    desk.share_of_label[place_of(share.label)] = -1;
   }
   std::ranges::sort(look.shares, {}, &ClusterShare::label);
   return look;

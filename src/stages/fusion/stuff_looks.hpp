@@ -53,19 +53,28 @@ public:
   [[nodiscard]] Grid<std::int32_t> const& owners() const { return owners_; }
 
 private:
-  [[nodiscard]] StuffLook look_at(StuffModel const& model, std::int32_t item);
-  /// What of the thing that is looked at falls on a cluster.
-  ClusterShare& share_of(LabelCode label, StuffLook& look);
-  void mark_around(Pixel block, float point_m, float spacing_m, std::int32_t item, StuffLook& look);
+  /// A block that agrees with a thing, and by how much.
+  struct Claim {
+    std::size_t block = 0;
+    float distance_m = 0.0F;
+  };
+  /// What one thread needs to look at one thing after the other.
+  struct Desk {
+    /// The last thing that marked a block.
+    Grid<std::int32_t> marked_by;
+    /// Of the thing that is looked at; places in its shares by label, -1 where there is none.
+    std::vector<std::int32_t> share_of_label;
+    std::vector<Claim> claims;
+  };
+
+  /// Claims are left on the desk.
+  [[nodiscard]] StuffLook look_at(StuffBelief const& thing, std::int32_t item, Desk& desk) const;
+  void mark_around(Pixel block, float point_m, float spacing_m, std::int32_t item, StuffLook& look,
+                   Desk& desk) const;
 
   SightView view_;
   std::vector<StuffLook> looks_;
   Grid<std::int32_t> owners_;
-  Grid<float> owner_distance_m_;
-  /// The last thing that marked a block.
-  Grid<std::int32_t> marked_by_;
-  /// Of the thing that is looked at; places in its shares by label, -1 where there is none.
-  std::vector<std::int32_t> share_of_label_;
 };
 
 }  // namespace credo

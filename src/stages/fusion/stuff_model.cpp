@@ -14,8 +14,6 @@ constexpr double kFinest_m = 0.008;
 constexpr double kCoarsest_m = 0.040;
 constexpr std::size_t kMostPoints = 4000;
 constexpr std::size_t kFewestPoints = 20;
-/// A mean over so many looks, at most, follows what changes.
-constexpr float kMostWeight = 12.0F;
 constexpr float kMissedTooOften = 2.0F;
 
 /// 21 bits an axis.
@@ -114,6 +112,15 @@ StuffModel fused_model(StuffModel const& model, std::span<Eigen::Vector3f const>
     j += again ? 1 : 0;
   }
   return within_limit(std::move(both));
+}
+
+StuffModel joined_model(StuffModel const& model, StuffModel const& other) {
+  std::vector<SurfacePoint> points = model.points;
+  points.insert(points.end(), other.points.begin(), other.points.end());
+  for (SurfacePoint& point : points) {
+    point.apart = 0.0F;
+  }
+  return within_limit(thinned(points, model.spacing_m));
 }
 
 StuffModel carved_model(StuffModel model) {

@@ -19,6 +19,12 @@ namespace credo {
 [[nodiscard]] StuffModel fused_model(StuffModel const& model,
                                      std::span<Eigen::Vector3f const> points_world);
 
+/// A mean over so many looks, at most, follows what changes.
+inline constexpr float kMostWeight = 12.0F;
+
+/// Both as one, at the spacing of the first.
+[[nodiscard]] StuffModel joined_model(StuffModel const& model, StuffModel const& other);
+
 /// Without the points that were seen through too often; at least 20 stay, or as many as there are.
 [[nodiscard]] StuffModel carved_model(StuffModel model);
 

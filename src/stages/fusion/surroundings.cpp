@@ -29,7 +29,9 @@ void begin(Surface& surface, Look const& now, FusionConfig const& config) {
   surface.log_odds = log_odds_of(config.new_probability);
   surface.last_look = now;
   surface.evidence = Evidence::kSeen;
-  surface.why = {.visible_share = 1.0, .news = 1.0};
+  surface.why = {};
+  surface.why.visible_share = 1.0;
+  surface.why.news = 1.0;
 }
 
 template <typename Surface>

@@ -1,8 +1,10 @@
 #include "stages/fusion/stuff_looks.hpp"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "stages/fusion/stuff_model.hpp"
@@ -26,6 +28,8 @@ StuffBelief square(double left_m, double z_m) {
   }
   StuffBelief item;
   item.model = std::make_shared<StuffModel const>(new_model(points, 0.25));
+  item.recent_clusters = {
+      std::make_shared<StuffCluster const>(cluster_of(*item.model, kFirst, points.size()))};
   return item;
 }
 
@@ -85,6 +89,53 @@ TEST(StuffLooks, WithoutDepthNothingIsTold) {
 TEST(StuffLooks, OutOfViewNothingIsTold) {
   EXPECT_EQ(look({.x_m = 2.0}, square(0, 1.5)).counts[PointState::kOutOfView], 100);
   EXPECT_EQ(look({}, square(0, -1.5)).counts[PointState::kOutOfView], 100);
+}
+
+/// The same thing with such bounds that all its points are looked at, wherever they are.
+StuffBelief without_bounds(StuffBelief item) {
+  StuffCluster cluster = item.latest();
+  cluster.bounds_world.extend(Eigen::Vector3f(-50.0F, -50.0F, -50.0F));
+  cluster.bounds_world.extend(Eigen::Vector3f(50.0F, 50.0F, 50.0F));
+  item.recent_clusters = {std::make_shared<StuffCluster const>(std::move(cluster))};
+  return item;
+}
+
+// Across all four edges of the image, and behind the camera.
+TEST(StuffLooks, ByItsBoundsAThingIsOutOfViewWhereAllItsPointsAre) {
+  int out = 0;
+  for (double const z_m : {1.5, 0.05, -1.5}) {
+    for (double x_m = -1.2; x_m < 1.3; x_m += 0.013) {
+      for (View const& view : {View{.boards = {{kFirst}}, .x_m = x_m}, View{.y_m = x_m}}) {
+        StuffLook const fast = look(view, square(0, z_m));
+        StuffLook const slow = look(view, without_bounds(square(0, z_m)));
+        ASSERT_EQ(fast.counts, slow.counts) << x_m;
+        ASSERT_EQ(fast.blocks, slow.blocks) << x_m;
+        out += fast.counts[PointState::kOutOfView] == 100 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(out, 200);
+  EXPECT_LT(out, 1000);
+}
+
+TEST(StuffLooks, AreTheSameAtAnyNumberOfThreads) {
+  Segmentation const frame = test::segmentation_of({.boards = {{kFirst}}});
+  std::vector<StuffBelief> things;
+  for (int i = 0; i < 200; ++i) {
+    things.push_back(square(0.001 * i, 1.5 + 0.001 * (i % 7)));
+  }
+  StuffLooks const many(frame.sight, frame.T_world_camera, things);
+  tbb::global_control const one(tbb::global_control::max_allowed_parallelism, 1);
+  StuffLooks const single(frame.sight, frame.T_world_camera, things);
+  for (std::size_t block = 0; block < many.owners().size(); ++block) {
+    ASSERT_EQ(many.owners()[block], single.owners()[block]);
+  }
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    ASSERT_EQ(many.looks()[i].counts, single.looks()[i].counts);
+    ASSERT_EQ(many.looks()[i].blocks, single.looks()[i].blocks);
+  }
+  // Of two that fit a block equally well it is the first one's.
+  EXPECT_EQ((many.owners()[Pixel{81, 61}]), 0);
 }
 
 TEST(StuffLooks, ABlockIsTheThingsThatFitsItBest) {

@@ -1,0 +1,65 @@
+#include "stages/fusion/stuff_one_with.hpp"
+
+#include <algorithm>
+
+#include "stages/fusion/stuff_model.hpp"
+
+namespace credo {
+namespace {
+
+// Evidence that two are one counts in looks, as far as these are news.
+constexpr double kEnoughToBeKnown = 3.0;
+constexpr double kEnoughToMerge = 1.4;
+constexpr double kOfOneTogether = 2.5;
+constexpr double kOfOneApart = 0.5;
+constexpr double kLongAlone = 1.0;
+
+OneWith& entry_of(StuffBelief& item, std::uint32_t id, double at_first) {
+  auto const found = std::ranges::find(item.one_with, id, &OneWith::id);
+  return found != item.one_with.end() ? *found : item.one_with.emplace_back(id, at_first);
+}
+
+double total_weight(StuffModel const& model) {
+  double sum = 0.0;
+  for (SurfacePoint const& point : model.points) {
+    sum += static_cast<double>(point.weight);
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool shows_as_one(StuffBelief& item, std::uint32_t id, double news) {
+  double const points = static_cast<double>(std::max<std::size_t>(item.model->points.size(), 1));
+  double const looks = total_weight(*item.model) / points;
+  OneWith& entry = entry_of(item, id, -kLongAlone * looks / kMostWeight);
+  entry.evidence += kOfOneTogether * news;
+  return entry.evidence > kEnoughToMerge;
+}
+
+bool shows_as_known(StuffBelief& item, double news) {
+  OneWith& entry = entry_of(item, kKnownThings, 0.0);
+  entry.evidence += news;
+  return entry.evidence > kEnoughToBeKnown;
+}
+
+void shows_alone(StuffBelief& item, std::vector<StuffBelief> const& stuff, double news) {
+  for (OneWith& entry : item.one_with) {
+    auto const other = std::ranges::find(stuff, entry.id, &StuffBelief::id);
+    if (entry.id == kKnownThings) {
+      entry.evidence -= news;
+    } else if (other == stuff.end() || other->label) {
+      entry.evidence -= kOfOneApart * news;
+    }
+  }
+  std::erase_if(item.one_with, [](OneWith const& entry) {
+    return entry.evidence <= (entry.id == kKnownThings ? 0.0 : -kLongAlone);
+  });
+}
+
+double amount_seen(StuffModel const& model) {
+  auto const spacing_m = static_cast<double>(model.spacing_m);
+  return total_weight(model) * spacing_m * spacing_m;
+}
+
+}  // namespace credo

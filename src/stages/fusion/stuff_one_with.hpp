@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/belief.hpp"
+
+namespace credo {
+
+/// Stands for floor, walls and known objects in StuffBelief::one_with; no thing's id.
+inline constexpr std::uint32_t kKnownThings = 0;
+
+/// Adds a look in which `item` showed in another thing's clusters to what says that the two are
+/// one; whether that is enough. `news` is how much of the look counts (novelty). What showed alone
+/// in many looks before takes longer to become one with another: it begins below nothing.
+[[nodiscard]] bool shows_as_one(StuffBelief& item, std::uint32_t id, double news);
+
+/// The same in which it showed as floor, wall or known object.
+[[nodiscard]] bool shows_as_known(StuffBelief& item, double news);
+
+/// A look in which it showed by itself, and so did those of `stuff` that it might be one with. It
+/// takes five such looks to undo one of the others: what shows as one every second time is one
+/// thing, what does so only now and then is two.
+void shows_alone(StuffBelief& item, std::vector<StuffBelief> const& stuff, double news);
+
+/// How much was seen of it, how often: square metres of surface times looks.
+[[nodiscard]] double amount_seen(StuffModel const& model);
+
+}  // namespace credo
