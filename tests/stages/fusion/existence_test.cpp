@@ -107,5 +107,39 @@ TEST(ViewChange, TakesStampsThatRunBackwardsAsNoTime) {
   EXPECT_EQ(view_change(belief, segmentation).elapsed_s, 0.0);
 }
 
+// P(look | there) = r / (1 + r), P(look | not there) = 1 / (1 + r): of 19 they are 0.95 and 0.05.
+TEST(LogOddsStep, IsBayesRuleWithTheRatioOfBoth) {
+  EXPECT_NEAR(log_odds_step(19.0, 1.0), std::log(19.0), 1e-12);
+  EXPECT_NEAR(log_odds_step(1.0 / 19.0, 1.0), -std::log(19.0), 1e-12);
+  EXPECT_EQ(log_odds_step(1.0, 0.3), 0.0);
+  EXPECT_EQ(log_odds_step(19.0, 0.0), 0.0) << "no news";
+  EXPECT_NEAR(log_odds_step(19.0, 0.2), std::log((0.8 + 0.2 * 0.95) / (0.8 + 0.2 * 0.05)), 1e-12);
+}
+
+TEST(AddStep, GivesAccountOfWhatItMovedWithinTheBound) {
+  ExistenceConfig config;
+  config.max_log_odds = 4.0;
+  Account why;
+  double log_odds = 3.0;
+  add_step(log_odds, 0.5, why, config);
+  EXPECT_EQ(log_odds, 3.5);
+  EXPECT_EQ(why.moved, 0.5);
+  EXPECT_FALSE(why.bounded);
+  add_step(log_odds, 2.0, why, config);
+  EXPECT_EQ(log_odds, 4.0);
+  EXPECT_EQ(why.moved, 1.0) << "both together";
+  EXPECT_TRUE(why.bounded);
+}
+
+TEST(BirthLogOdds, GrowWithTheLogarithmOfTheThickness) {
+  BirthConfig const births{.log_odds = 1.0, .per_log_thickness = 2.0};
+  ExistenceConfig const existence;
+  EXPECT_NEAR(birth_log_odds(1.0, births, existence), 1.0, 1e-12);
+  EXPECT_NEAR(birth_log_odds(2.0, births, existence), 1.0 + 2.0 * std::log(2.0), 1e-12);
+  EXPECT_EQ(birth_log_odds(1e9, births, existence), existence.max_log_odds);
+  EXPECT_GT(probability_of(birth_log_odds(0.0, births, existence)), existence.min_probability)
+      << "nothing is forgotten before it is looked at again";
+}
+
 }  // namespace
 }  // namespace credo

@@ -259,7 +259,7 @@ TEST(Fuse, LeavesTheBeliefItStartedFromAlone) {
 TEST(Fields, DescribeEverythingThatFusionIsToldOnce) {
   FusionConfig config;
   FieldList const list = fields(config);
-  ASSERT_THAT(list, SizeIs(8));
+  ASSERT_THAT(list, SizeIs(10));
   EXPECT_EQ(list[0].name, "visibility");
   EXPECT_EQ(list[1].name, "prior_probability");
   EXPECT_EQ(list[2].name, "new_probability");
@@ -267,7 +267,7 @@ TEST(Fields, DescribeEverythingThatFusionIsToldOnce) {
   for (std::size_t i = 3; i < list.size(); ++i) {
     counts.push_back(std::get<FieldList>(list[i].target).size());
   }
-  EXPECT_THAT(counts, testing::ElementsAre(6, 4, 2, 7, 9));
+  EXPECT_THAT(counts, testing::ElementsAre(6, 5, 4, 2, 7, 9, 2));
 }
 
 }  // namespace

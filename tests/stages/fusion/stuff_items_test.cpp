@@ -64,7 +64,14 @@ public:
   }
 
 private:
-  FusionConfig config_;
+  /// Whatever is seen first is believed with 0.7.
+  static FusionConfig config_with_equal_births() {
+    FusionConfig config;
+    config.births = {.log_odds = std::log(0.7 / 0.3), .per_log_thickness = 0.0};
+    return config;
+  }
+
+  FusionConfig config_ = config_with_equal_births();
   FusedStuff stuff_;
   std::int64_t frame_ = 0;
 };
@@ -85,6 +92,18 @@ TEST(StuffItems, WhatIsSeenFirstIsBelievedAtOnce) {
   // 20 x 20 pixels of a centimetre, 25 points across.
   EXPECT_NEAR(room.stuff()[0].model->spacing_m, 0.008, 1e-6);
   EXPECT_EQ(room.stuff()[0].latest().pixel_count, 400U);
+}
+
+TEST(StuffItems, SliversAreBelievedLessAtFirst) {
+  auto const seen_first = [](double width_m) {
+    Segmentation const frame = test::segmentation_of({.boards = {{kFirst, 0, 0, width_m, 0.4}}});
+    return fused_items({}, frame, KnownPlaces({}, {}), {}).stuff.at(0).log_odds;
+  };
+  BirthConfig const births;
+  // 2 and 20 by 40 pixels of a centimetre: 4 area / outline.
+  EXPECT_NEAR(seen_first(0.02), birth_log_odds(4.0 * 80 / 84, births, {}), 1e-9);
+  EXPECT_NEAR(seen_first(0.2), birth_log_odds(4.0 * 800 / 120, births, {}), 1e-9);
+  EXPECT_LT(seen_first(0.02), seen_first(0.2) - 1.0);
 }
 
 // L + n log((1 - k + k .95) / (1 - k + k .05)) up to the bound, k = 1 - exp(-dt / 0.25 s).
