@@ -14,6 +14,7 @@
 #include "core/label.hpp"
 #include "core/plane.hpp"
 #include "core/segmentation.hpp"
+#include "core/sight.hpp"
 
 namespace credo {
 
@@ -164,6 +165,8 @@ struct BeliefState {
   /// What the frames' poses are corrected by: from the world that they tell to the one that is
   /// believed. The identity where nothing is corrected.
   Se3 T_world_told;
+  /// What the last frame showed; null before the first, and with the thesis' rule.
+  std::shared_ptr<PlacedSight const> last_sight;
   std::optional<FloorBelief> floor;
   std::vector<WallBelief> walls;
   std::vector<ObjectBelief> objects;

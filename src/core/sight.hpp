@@ -4,6 +4,7 @@
 #include "core/frame.hpp"
 #include "core/grid.hpp"
 #include "core/label.hpp"
+#include "core/se3.hpp"
 
 namespace credo {
 
@@ -28,6 +29,12 @@ struct Sight {
   [[nodiscard]] Pixel middle_of(Pixel block) const {
     return {block.u * block_px + block_px / 2, block.v * block_px + block_px / 2};
   }
+};
+
+/// A sight and from where it was.
+struct PlacedSight {
+  Sight sight;
+  Se3 T_world_camera;
 };
 
 }  // namespace credo

@@ -1,10 +1,10 @@
 #include "geometry/known_surface.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "geometry/surface_points.hpp"
 #include "geometry/thinning.hpp"
@@ -25,13 +25,8 @@ std::vector<Eigen::Vector3f> points_at(ObjectModel const& model, double spacing_
 }
 
 KnownSurface surface_of(ObjectModel const& model) {
-  Eigen::AlignedBox3d bounds;
-  double radius_m = 0.0;
-  constexpr double kAnySpacing_m = 1e3;
-  for (Eigen::Vector3d const& point : surface_points(model, kAnySpacing_m)) {
-    bounds.extend(point);
-    radius_m = std::max(radius_m, point.norm());
-  }
+  auto shape = std::make_shared<ObjectShape const>(model);
+  Eigen::AlignedBox3d const& bounds = shape->bounds();
   double const size_m = bounds.diagonal().norm();
   if (!(size_m > 0.0)) {
     throw std::logic_error("known_surfaces: " + model.name + " has no surface");
@@ -41,8 +36,9 @@ KnownSurface surface_of(ObjectModel const& model) {
   auto const count = static_cast<double>(points_at(model, coarse_m).size());
   // The number of points goes with the inverse square of their spacing.
   double const spacing_m = coarse_m * std::sqrt(count / kPoints);
-  return {points_at(model, spacing_m), static_cast<float>(spacing_m), radius_m,
-          std::make_shared<ObjectShape const>(model), model.symmetry};
+  double const radius_m = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).norm();
+  return {points_at(model, spacing_m), static_cast<float>(spacing_m), radius_m, std::move(shape),
+          model.symmetry};
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct KnownSurface {
   /// About `spacing_m` apart; some hundred, whatever the size of the model. Never empty.
   std::vector<Eigen::Vector3f> points_model;
   float spacing_m = 0.0F;
-  /// Of the sphere about the model's origin that holds it.
+  /// Of a sphere about the model's origin that holds it.
   double radius_m = 0.0;
   /// The same surface, to be asked for distances; never null.
   std::shared_ptr<ObjectShape const> shape;

@@ -174,12 +174,15 @@ private:
     expect(are_numbers(T, 16) && T[12] == 0 && T[13] == 0 && T[14] == 0 && T[15] == 1,
            "T_world_camera");
     json const& floor = line.at("floor");
-    expect(floor.is_null() || (is_unit(floor.at("normal"), 3) && floor.at("height_m").is_number() &&
-                               is_whole(floor.at("points"), 1)),
+    expect(floor.is_null() ||
+               (is_unit(floor.at("normal"), 3) && floor.at("height_m").is_number() &&
+                is_whole(floor.at("points"), 1) && is_probability(floor.at("probability")) &&
+                is_evidence(floor.at("evidence"))),
            "floor");
     things(line.at("walls"), 2000, 2999, [&](json const& wall) {
       expect(is_whole(wall.at("id"), 0) && is_unit(wall.at("normal"), 3) &&
-                 is_whole(wall.at("points"), 1) && wall.at("segment").size() == 2 &&
+                 is_whole(wall.at("points"), 1) && is_probability(wall.at("probability")) &&
+                 is_evidence(wall.at("evidence")) && wall.at("segment").size() == 2 &&
                  are_numbers(wall["segment"][0], 2) && are_numbers(wall["segment"][1], 2),
              "wall " + wall.dump());
     });

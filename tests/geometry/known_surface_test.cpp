@@ -69,6 +69,16 @@ TEST(KnownSurface, AFineMeshHasNoMore) {
   }
 }
 
+// All of it on one side of the origin, and open.
+TEST(KnownSurface, OfAMeshAnywhere) {
+  TriangleMesh mesh;
+  mesh.vertices = {{1, 1, 1}, {1.2F, 1, 1}, {1, 1.2F, 1}};
+  mesh.triangles = {{0, 1, 2}};
+  KnownSurface const surface = known_surfaces({{"flap", {"flap", mesh, {}}}}).at("flap");
+  EXPECT_GT(surface.points_model.size(), 200U);
+  EXPECT_NEAR(surface.radius_m, std::sqrt(1.2 * 1.2 + 1.2 * 1.2 + 1.0), 1e-6);
+}
+
 TEST(KnownSurface, KeepsTheSymmetry) {
   ObjectModel model = box_of(0.1);
   model.symmetry.axis = SymmetryAxis{};

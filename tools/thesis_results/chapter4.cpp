@@ -298,9 +298,8 @@ Figure in_the_room() {
       "The thesis gives 0.99 where its own rule comes to more than 0.999, and 0.21 for 0.215: it "
       "seems to cut after two digits. Its section 4.2 writes of the intersection of the floor's "
       "points, but only their union grows. What the table's noisy pose leaves over in look 2 "
-      "pales in look 3 with the thesis' numbers, as in its later scenes; by default it is seen, "
-      "and "
-      "stays.";
+      "pales in look 3 with the thesis' numbers, as in its later scenes; by default it goes "
+      "in look 3, where nothing is left over any more.";
   return figure;
 }
 
@@ -312,7 +311,10 @@ Figure near_glass() {
       {{"pillars and cable stay believed",
         believed_at_the_end({"left pillar", "right pillar", "cable"}), "", ""},
        {"the glass is no wall", glass_is_no_wall, "", ""},
-       {"points of the table above its pose are stuff", left_over("table"), "", ""},
+       {"points of the table above its pose are stuff", left_over("table"), "",
+        "regions grow where belief and detection together have the table, as far as that may be "
+        "off, "
+        "and nothing is left over."},
        {"the far pillar, seen in look 2 only, pales", far_pillar_pales, "", kHiddenIsKept}});
   figure.remarks =
       "The text of 4.4.2 calls this scene's figures 4-8 and 4-9, which are those of 4.4.4; its own "

@@ -58,12 +58,15 @@ void add_step(double& log_odds, double step, Account& why, ExistenceConfig const
   why.bounded = log_odds != before + step;
 }
 
-double birth_log_odds(double thickness_blocks, BirthConfig const& config,
+double birth_log_odds(double thickness_blocks, bool arrived, BirthConfig const& config,
                       ExistenceConfig const& existence) {
+  double told =
+      config.log_odds + config.per_log_thickness * std::log(std::max(thickness_blocks, 1e-3));
+  if (arrived) {
+    told = std::min(told, log_odds_of(config.arrived_probability));
+  }
   // What is worth a place in the belief is not forgotten before it is looked at again.
   double const least = log_odds_of(2.0 * existence.min_probability);
-  double const told =
-      config.log_odds + config.per_log_thickness * std::log(std::max(thickness_blocks, 1e-3));
   return bounded_log_odds(std::max(least, told), existence);
 }
 

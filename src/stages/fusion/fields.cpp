@@ -160,6 +160,8 @@ FieldList fields(BirthConfig& config) {
        {0, 10},
        "",
        "added for each time that it is e times as thick"},
+      {"arrived_probability", &config.arrived_probability, kProbability, "",
+       "at most, of what stands where the frame before saw through"},
   };
 }
 

@@ -1,5 +1,6 @@
 #include "stages/fusion/fusion.hpp"
 
+#include <memory>
 #include <utility>
 
 #include "stages/fusion/drift.hpp"
@@ -49,6 +50,10 @@ BeliefState fuse_in_place(BeliefState prior, Segmentation const& segmentation,
               : fused_stuff(std::move(stuff), segmentation.stuff, change, config);
   belief.stuff = std::move(stuff.stuff);
   belief.next_stuff_id = stuff.next_id;
+  if (config.visibility) {
+    belief.last_sight =
+        std::make_shared<PlacedSight const>(segmentation.sight, segmentation.T_world_camera);
+  }
   return belief;
 }
 

@@ -105,10 +105,12 @@ FieldList fields(StuffFusionConfig& config);
 struct BirthConfig {
   double log_odds = -0.15;
   double per_log_thickness = 1.8;
+  /// At most, of what stands where the frame before saw through: it came, and may go again.
+  double arrived_probability = 0.55;
 };
 FieldList fields(BirthConfig& config);
-[[nodiscard]] double birth_log_odds(double thickness_blocks, BirthConfig const& config,
-                                    ExistenceConfig const& existence);
+[[nodiscard]] double birth_log_odds(double thickness_blocks, bool arrived,
+                                    BirthConfig const& config, ExistenceConfig const& existence);
 
 /// How the poses that frames tell are corrected against what is believed (drift.hpp; T: not at
 /// all).

@@ -18,6 +18,9 @@ constexpr double kKnown_m = 0.02;
 
 KnownPlaces::KnownPlaces(BeliefState const& belief, KnownSurfaces const& surfaces)
     : camera_world_(belief.T_world_camera.translation()) {
+  if (belief.last_sight != nullptr) {
+    before_.emplace(belief.last_sight->sight, belief.last_sight->T_world_camera);
+  }
   for (WallBelief const& wall : belief.walls) {
     Eigen::Vector2d const along = wall.segment_end_m - wall.segment_start_m;
     if (wall.log_odds > 0.0 && along.norm() > 0.0) {
@@ -42,6 +45,31 @@ double KnownPlaces::noise_m(Eigen::Vector3d const& p_world) const {
   constexpr double kNearest_m = 0.015;
   constexpr double kPerSquareMetre = 0.0015;
   return kNearest_m + kPerSquareMetre * (p_world - camera_world_).squaredNorm();
+}
+
+double KnownPlaces::share_known(std::span<Eigen::Vector3f const> points_world,
+                                bool may_be_object) const {
+  auto const known = std::ranges::count_if(points_world, [&](Eigen::Vector3f const& point) {
+    Eigen::Vector3d const p_world = point.cast<double>();
+    return has_wall_at(p_world) || (may_be_object && has_object_at(p_world));
+  });
+  return points_world.empty()
+             ? 0.0
+             : static_cast<double>(known) / static_cast<double>(points_world.size());
+}
+
+double KnownPlaces::share_free_before(std::span<Eigen::Vector3f const> points_world) const {
+  constexpr int kLeastPoints = 8;
+  if (!before_) {
+    return 0.0;
+  }
+  PointCounts counts;
+  for (Eigen::Vector3f const& p_world : points_world) {
+    ++counts[before_->look_at(p_world)];
+  }
+  int const free = counts[PointState::kSeenThrough];
+  int const told = free + counts[PointState::kAgrees];
+  return told < kLeastPoints ? 0.0 : static_cast<double>(free) / told;
 }
 
 bool KnownPlaces::has_wall_at(Eigen::Vector3d const& p_world) const {

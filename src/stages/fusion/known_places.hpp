@@ -1,23 +1,26 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "core/belief.hpp"
 #include "geometry/known_surface.hpp"
+#include "stages/fusion/sight_view.hpp"
 
 namespace credo {
 
-/// Where believed walls and known objects are: what a frame shows there is nothing new, though no
-/// plane was laid through it and no detector found it, as of a table that reaches into view by a
-/// corner.
+/// What was known of places before the frame. Where believed walls and known objects are: what a
+/// frame shows there is nothing new, though no plane was laid through it and no detector found it,
+/// as of a table that reaches into view by a corner.
 ///
 /// Objects count that the last frame did not find: of one that was found all has been taken out of
 /// the frame already, and what is left beside it may lie on it. And those whose place is known to 2
 /// cm.
 class KnownPlaces {
 public:
-  /// `belief` as it is after the frame but for stuff; `surfaces` must outlive it.
+  /// `belief` as it is after the frame but for stuff and the last sight; both must outlive it.
   KnownPlaces(BeliefState const& belief, KnownSurfaces const& surfaces);
 
   /// Whether a wall is within 1.5 cm + 1.5 mm/m^2 times the squared distance from the camera (a
@@ -25,6 +28,15 @@ public:
   [[nodiscard]] bool has_wall_at(Eigen::Vector3d const& p_world) const;
   /// Whether an object's surface is as near, and two deviations of its place more.
   [[nodiscard]] bool has_object_at(Eigen::Vector3d const& p_world) const;
+
+  /// The part of the points that are at known places. Not `may_be_object`: of walls alone, for what
+  /// lies on something: on a table it is none of that, however flat, but beside a cabinet a wall
+  /// seems to lie on it.
+  [[nodiscard]] double share_known(std::span<Eigen::Vector3f const> points_world,
+                                   bool may_be_object) const;
+  /// Of the points that the last frame told of, the part that it saw through: what stands there now
+  /// came there since. 0 where it told of fewer than 8.
+  [[nodiscard]] double share_free_before(std::span<Eigen::Vector3f const> points_world) const;
 
 private:
   struct Strip {
@@ -43,6 +55,7 @@ private:
   [[nodiscard]] double noise_m(Eigen::Vector3d const& p_world) const;
 
   Eigen::Vector3d camera_world_;
+  std::optional<SightView> before_;
   std::vector<Strip> walls_;
   std::vector<Place> objects_;
 };

@@ -15,7 +15,7 @@ namespace {
 /// Log-odds of a place where an object was found once. Below even: detectors err.
 constexpr double kFoundOnce = -1.0;
 /// Log-odds that take an object to another place although nothing says that it has gone.
-constexpr double kSure = 3.0;
+constexpr double kSure = 2.0;
 /// Two detections of one place agree within this quantile.
 constexpr double kSamePlace = 0.999;
 

@@ -143,8 +143,13 @@ private:
       }
     }
     bool const matched = !labels.empty();
-    std::optional<Finding> const finding = finding_of(seen.counts, item.most_agreeing, matched);
+    std::optional<Finding> finding = finding_of(seen.counts, item.most_agreeing, matched);
     item.evidence = evidence_of(seen.counts, finding);
+    if (finding && finding->verdict == Verdict::kSeen && !matched && shows_known(i)) {
+      // What is there is floor, wall or known object, and no thing of its own.
+      finding->verdict = Verdict::kGone;
+      item.evidence = Evidence::kNotSeen;
+    }
     item.why = account_of(seen.counts, item.most_agreeing);
     Eigen::Vector3d const middle = item.latest().centroid_world.cast<double>();
     news_[i] = novelty(view_change(item.last_look, now_), middle, config_.existence);
@@ -209,7 +214,7 @@ private:
       item.evidence = Evidence::kSeen;
       item.verdict = Verdict::kSeen;
       item.last_look = now_;
-      raise_to(item, birth_log_odds(seen.thickness_blocks, config_.births, config_.existence));
+      raise_to(item, log_odds_of_new(seen));
       ++item.history_count;
       begin_model(item, seen);
       given_to_[found.cluster] = static_cast<std::int32_t>(found.item);
@@ -243,17 +248,7 @@ private:
       explained += share != shares.end() && share->agreement() >= kLeastAgreement ? 1U : 0U;
     }
     return static_cast<double>(explained) <= kExplained * static_cast<double>(seen.blocks.size()) &&
-           !is_at_known_place(seen);
-  }
-
-  [[nodiscard]] bool is_at_known_place(SeenCluster const& seen) const {
-    // What lies on a table is none of it, however flat; beside a cabinet a wall seems to lie on it.
-    bool const may_be_object = seen.lies_on < 0;
-    auto const at_known = std::ranges::count_if(seen.points_world, [&](Eigen::Vector3f const& p) {
-      return places_.has_wall_at(p.cast<double>()) ||
-             (may_be_object && places_.has_object_at(p.cast<double>()));
-    });
-    return static_cast<double>(at_known) > kExplained * static_cast<double>(seen.blocks.size());
+           places_.share_known(seen.points_world, seen.lies_on < 0) <= kExplained;
   }
 
   /// What shows in another thing's clusters is one with it, what shows as floor, wall or known
@@ -264,7 +259,7 @@ private:
       if (item.model == nullptr) {
         continue;
       }
-      if (!item.label && mostly_in(j, shown_as_known(j))) {
+      if (!item.label && shows_known(j)) {
         if (shows_as_known(item, news_[j])) {
           forget(item);
         }
@@ -298,9 +293,9 @@ private:
     return look(j).blocks >= kLeastBlocksInAnother && blocks > kShareInAnother * look(j).blocks;
   }
 
-  [[nodiscard]] int shown_as_known(std::size_t j) const {
+  [[nodiscard]] bool shows_known(std::size_t j) const {
     auto const share = std::ranges::find(look(j).shares, kFloor, &ClusterShare::label);
-    return share == look(j).shares.end() ? 0 : share->blocks;
+    return share != look(j).shares.end() && mostly_in(j, share->blocks);
   }
 
   [[nodiscard]] std::size_t look_count() const { return looks_.looks().size(); }
@@ -352,9 +347,14 @@ private:
   void add_new() {
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
       if (is_unexplained(c)) {
-        add(c, birth_log_odds(clusters_[c].thickness_blocks, config_.births, config_.existence));
+        add(c, log_odds_of_new(clusters_[c]));
       }
     }
+  }
+
+  [[nodiscard]] double log_odds_of_new(SeenCluster const& seen) const {
+    bool const arrived = places_.share_free_before(seen.points_world) > 0.5;
+    return birth_log_odds(seen.thickness_blocks, arrived, config_.births, config_.existence);
   }
 
   void add(std::size_t c, double log_odds) {

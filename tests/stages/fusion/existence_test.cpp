@@ -134,10 +134,13 @@ TEST(AddStep, GivesAccountOfWhatItMovedWithinTheBound) {
 TEST(BirthLogOdds, GrowWithTheLogarithmOfTheThickness) {
   BirthConfig const births{.log_odds = 1.0, .per_log_thickness = 2.0};
   ExistenceConfig const existence;
-  EXPECT_NEAR(birth_log_odds(1.0, births, existence), 1.0, 1e-12);
-  EXPECT_NEAR(birth_log_odds(2.0, births, existence), 1.0 + 2.0 * std::log(2.0), 1e-12);
-  EXPECT_EQ(birth_log_odds(1e9, births, existence), existence.max_log_odds);
-  EXPECT_GT(probability_of(birth_log_odds(0.0, births, existence)), existence.min_probability)
+  EXPECT_NEAR(birth_log_odds(1.0, false, births, existence), 1.0, 1e-12);
+  EXPECT_NEAR(birth_log_odds(2.0, false, births, existence), 1.0 + 2.0 * std::log(2.0), 1e-12);
+  EXPECT_EQ(birth_log_odds(1e9, false, births, existence), existence.max_log_odds);
+  EXPECT_NEAR(probability_of(birth_log_odds(1e9, true, births, existence)),
+              births.arrived_probability, 1e-12);
+  EXPECT_GT(probability_of(birth_log_odds(0.0, false, births, existence)),
+            existence.min_probability)
       << "nothing is forgotten before it is looked at again";
 }
 

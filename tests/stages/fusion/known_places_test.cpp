@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <vector>
+
+#include "stages/fusion/table_views.hpp"
+
 namespace credo {
 namespace {
 
@@ -84,6 +89,55 @@ TEST(KnownPlaces, FoundOrDisbelievedObjectsExplainNothing) {
   belief.objects[0].log_odds = -1.0;
   EXPECT_FALSE(KnownPlaces(belief, surfaces()).has_object_at({1.0, 0, 0.05}));
   EXPECT_FALSE(KnownPlaces(with_box(1e-4), {}).has_object_at({1.0, 0, 0.05})) << "no model";
+}
+
+std::vector<Eigen::Vector3f> square_at(double z_m) {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 100; ++i) {
+    points.emplace_back(0.02F * static_cast<float>(i % 10), 0.02F * static_cast<float>(i / 10),
+                        static_cast<float>(z_m));
+  }
+  return points;
+}
+
+/// The last frame had a board of 20 cm at 1.5 m, before a wall at 3 m.
+BeliefState after_a_frame(test::View const& view) {
+  Segmentation const frame = test::segmentation_of(view);
+  BeliefState belief;
+  belief.last_sight = std::make_shared<PlacedSight const>(frame.sight, frame.T_world_camera);
+  return belief;
+}
+
+TEST(KnownPlaces, WhatStandsWhereOneSawThroughHasArrived) {
+  BeliefState const belief = after_a_frame({.boards = {{kFirstStuff}}});
+  KnownPlaces const places(belief, {});
+  EXPECT_EQ(places.share_free_before(square_at(1.5)), 0.0) << "it stood there";
+  EXPECT_EQ(places.share_free_before(square_at(1.3)), 1.0) << "before the board all was free";
+  EXPECT_EQ(places.share_free_before(square_at(1.7)), 0.0) << "behind it nobody knows";
+  EXPECT_EQ(places.share_free_before({}), 0.0);
+  EXPECT_EQ(KnownPlaces({}, {}).share_free_before(square_at(1.3)), 0.0) << "no frame before";
+}
+
+TEST(KnownPlaces, OfAFewPointsNothingIsTold) {
+  BeliefState const belief = after_a_frame({.boards = {{kFirstStuff}}});
+  std::vector<Eigen::Vector3f> points = square_at(1.3);
+  points.resize(8);
+  EXPECT_EQ(KnownPlaces(belief, {}).share_free_before(points), 1.0);
+  points.resize(7);
+  EXPECT_EQ(KnownPlaces(belief, {}).share_free_before(points), 0.0);
+}
+
+TEST(KnownPlaces, ShareOfPointsThatAreKnown) {
+  KnownPlaces const places(with_wall(), {});
+  std::vector<Eigen::Vector3f> const points = {{1, 2, 0}, {1, 2, 1}, {1, 1, 0}, {1, 0, 0}};
+  EXPECT_EQ(places.share_known(points, true), 0.5);
+  EXPECT_EQ(places.share_known(points, false), 0.5);
+  EXPECT_EQ(places.share_known({}, true), 0.0);
+  BeliefState const box = with_box(1e-4);
+  KnownPlaces const object(box, surfaces());
+  std::vector<Eigen::Vector3f> const front = {{1, 0, 0.05F}};
+  EXPECT_EQ(object.share_known(front, true), 1.0);
+  EXPECT_EQ(object.share_known(front, false), 0.0) << "it lies on something";
 }
 
 }  // namespace

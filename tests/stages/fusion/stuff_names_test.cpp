@@ -1,0 +1,154 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "stages/fusion/room.hpp"
+#include "stages/fusion/stuff_items.hpp"
+#include "stages/fusion/table_views.hpp"
+
+// Which clusters are one thing, which are two, and what each is called.
+namespace credo {
+namespace {
+
+using test::Board;
+using test::Room;
+using test::View;
+
+constexpr LabelCode kFirst = kFirstStuff;
+constexpr LabelCode kSecond = kFirstStuff + 1;
+
+TEST(StuffItems, WhatIsSeenInPiecesIsOneThing) {
+  Room room;
+  room.show({.boards = {{kFirst}}}, 3);
+  Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
+  room.show({.boards = {left, right}}, 15);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+  EXPECT_EQ(room.stuff()[0].label, kFirst);
+  EXPECT_EQ(room.stuff()[0].latest().pixel_count, 400U);
+}
+
+// As one at first, then in two for long: they are two.
+TEST(StuffItems, WhatShowsInTwoForLongBecomesTwo) {
+  Room room;
+  room.show({.boards = {{kFirst}}}, 3);
+  double const believed = room.stuff()[0].log_odds;
+  Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
+  room.show({.boards = {left, right}}, 60);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  EXPECT_EQ(room.stuff()[0].label, kFirst);
+  EXPECT_EQ(room.stuff()[1].label, kSecond);
+  EXPECT_LT(room.stuff()[0].latest().bounds_world.max().x(), 0.13F);
+  EXPECT_GE(room.stuff()[1].log_odds, believed);
+}
+
+// First in two pieces, then for long as one: the two were one.
+TEST(StuffItems, WhatShowsAsOneForLongBecomesOne) {
+  Room room;
+  Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
+  room.show({.boards = {left, right}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {{kFirst}}}, 4);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {{kFirst}}}, 2);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
+// The longer the two showed by themselves, up to some twelve looks, the longer it takes.
+TEST(StuffItems, WhatShowedInTwoForLongStaysTwoForLonger) {
+  Room room;
+  Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
+  room.show({.boards = {left, right}}, 30);
+  room.show({.boards = {{kFirst}}}, 7);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {{kFirst}}}, 2);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
+// A segmentation that cannot decide shows one thing; one that errs now and then shows two.
+TEST(StuffItems, WhatShowsAsOneEverySecondTimeIsOneAndWhatHardlyEverDoesIsTwo) {
+  Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
+  for (int const times_apart : {1, 9}) {
+    Room room;
+    for (int k = 0; k < 12; ++k) {
+      room.show({.boards = {left, right}}, times_apart);
+      room.show({.boards = {{kFirst}}});
+    }
+    EXPECT_THAT(room.ids(),
+                testing::ElementsAreArray(times_apart == 1 ? std::vector<std::uint32_t>{1}
+                                                           : std::vector<std::uint32_t>{1, 2}));
+  }
+}
+
+// The larger one that came later keeps its name.
+TEST(StuffItems, OfTwoThatAreOneTheBetterKnownKeepsItsName) {
+  Room room;
+  Board const left{kFirst, 0.0, 0.0, 0.05, 0.2};
+  Board const right{kSecond, 0.05, 0.0, 0.15, 0.2};
+  room.show({.boards = {left}});
+  room.show({.boards = {left, right}}, 3);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {{kFirst}}}, 10);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(2U));
+}
+
+// A magazine on a table: what is measured agrees with the table, too.
+TEST(StuffItems, WhatLiesOnAThingIsAThingOfItsOwn) {
+  Room room;
+  Board const table{kFirst, -0.4, -0.4, 0.8, 0.8, 1.5};
+  Board const magazine{kSecond, 0.0, 0.0, 0.2, 0.2, 1.49, kFirst};
+  room.show({.boards = {table}}, 10);
+  room.show({.boards = {table, magazine}}, 2);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  EXPECT_EQ(room.stuff()[0].label, kFirst);
+  EXPECT_EQ(room.stuff()[1].label, kSecond);
+}
+
+// A lid, raised above its box in one frame and not in the next.
+TEST(StuffItems, WhatIsAGoodPartOfAThingDoesNotLieOnIt) {
+  Room room;
+  Board const rim{kFirst, 0.0, 0.0, 0.2, 0.2};
+  Board const lid{kSecond, 0.03, 0.03, 0.14, 0.14, 1.499, kFirst};
+  room.show({.boards = {rim}}, 10);
+  room.show({.boards = {rim, lid}}, 2);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
+// One frame took the wall beside it for a part of it.
+TEST(StuffItems, WhatShowsAsSomethingElseLeavesTheModel) {
+  Room room;
+  Board const box{kFirst, 0.0, 0.0, 0.12, 0.2};
+  Board const wall{kFirstWall, 0.12, 0.0, 0.08, 0.2};
+  room.show({.boards = {box, wall}}, 5);
+  room.show({.boards = {{kFirst}}});
+  EXPECT_GT(room.stuff()[0].latest().bounds_world.max().x(), 0.18F);
+  room.show({.boards = {box, wall}}, 5);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
+  EXPECT_LT(room.stuff()[0].latest().bounds_world.max().x(), 0.13F);
+}
+
+// Of a mug at the edge of what hides it, a strip shows in the table's cluster.
+TEST(StuffItems, WhatHardlyShowsDoesNotBecomeOneWithAnother) {
+  Room room;
+  Board const mug{kFirst, 0.0, 0.0, 0.2, 0.2};
+  Board const table{kSecond, 0.2, 0.0, 0.4, 0.2};
+  room.show({.boards = {mug, table}}, 3);
+  Board const in_front{kSecond + 1, -0.3, -0.3, 0.428, 0.8, 1.2};
+  Board const longer_table{kSecond, 0.1, 0.0, 0.5, 0.2};
+  room.show({.boards = {in_front, longer_table}}, 40);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U, 3U));
+}
+
+// A pose that is not quite right looks past most of it.
+
+}  // namespace
+}  // namespace credo
