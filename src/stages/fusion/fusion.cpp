@@ -51,8 +51,8 @@ BeliefState fuse_in_place(BeliefState prior, Segmentation const& segmentation,
   belief.stuff = std::move(stuff.stuff);
   belief.next_stuff_id = stuff.next_id;
   if (config.visibility) {
-    belief.last_sight =
-        std::make_shared<PlacedSight const>(segmentation.sight, segmentation.T_world_camera);
+    belief.last_sight = std::make_shared<PlacedSight const>(
+        PlacedSight{segmentation.sight, segmentation.T_world_camera});
   }
   return belief;
 }

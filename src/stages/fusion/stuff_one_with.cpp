@@ -16,7 +16,7 @@ constexpr double kLongAlone = 1.0;
 
 OneWith& entry_of(StuffBelief& item, std::uint32_t id, double at_first) {
   auto const found = std::ranges::find(item.one_with, id, &OneWith::id);
-  return found != item.one_with.end() ? *found : item.one_with.emplace_back(id, at_first);
+  return found != item.one_with.end() ? *found : item.one_with.emplace_back(OneWith{id, at_first});
 }
 
 double total_weight(StuffModel const& model) {

@@ -104,7 +104,8 @@ std::vector<Eigen::Vector3f> square_at(double z_m) {
 BeliefState after_a_frame(test::View const& view) {
   Segmentation const frame = test::segmentation_of(view);
   BeliefState belief;
-  belief.last_sight = std::make_shared<PlacedSight const>(frame.sight, frame.T_world_camera);
+  belief.last_sight =
+      std::make_shared<PlacedSight const>(PlacedSight{frame.sight, frame.T_world_camera});
   return belief;
 }
 
