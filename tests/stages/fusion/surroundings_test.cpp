@@ -75,6 +75,17 @@ TEST(Walls, GainWhereTheFrameDoesNotCallThemWalls) {
       fuse(std::move(belief), frame_of(2, {{kFirstStuff, 0.0, -0.4, 0.8, 0.8, 1.5}}, false), {});
   EXPECT_GT(belief.walls[0].log_odds, before);
   EXPECT_FALSE(belief.walls[0].label.has_value());
+  EXPECT_TRUE(belief.stuff.empty()) << "what is on a believed wall is nothing new";
+}
+
+TEST(NewThings, ThatCameWhereNothingStoodMayGoAgain) {
+  std::vector<Board> const thing = {{kFirstStuff, 0.0, -0.4, 0.8, 0.8, 1.5}};
+  BeliefState const at_first = fuse({}, frame_of(0, thing, false), {});
+  EXPECT_GT(probability_of(at_first.stuff.at(0).log_odds), 0.95);
+  BeliefState belief = fuse({}, frame_of(0, {}, false), {});
+  belief = fuse(std::move(belief), frame_of(1, thing, false), {});
+  EXPECT_NEAR(probability_of(belief.stuff.at(0).log_odds), BirthConfig{}.arrived_probability,
+              1e-12);
 }
 
 TEST(Walls, ThatAreHiddenStayToTheBit) {
