@@ -23,10 +23,12 @@ constexpr char const* kPanels =
 constexpr char const* kHiddenIsKept =
     "what is out of view or hidden keeps its probability: nothing was seen through the far pillar.";
 constexpr char const* kSeenThrough =
-    "what is seen for the first time is believed with 0.7, and two looks make that 0.99; what is "
+    "what is seen for the first time is believed the more the thicker it is, and two looks make "
+    "that 0.99; what is "
     "seen through goes within two looks, however long it was seen before.";
 constexpr char const* kBegins =
-    "what is seen for the first time is believed with 0.7; two looks make that 0.99.";
+    "what is seen for the first time is believed the more the thicker it is, with 0.55 at most "
+    "where nothing stood before; two looks make that 0.99.";
 constexpr char const* kScrapWins =
     "clusters match where each is the other's best by the sum of squared distances, and a scrap of "
     "few points has a small sum. One beside the bottle wins one of the two directions, so that the "
