@@ -18,7 +18,11 @@ namespace {
 
 void fuse_surroundings(BeliefState& belief, Segmentation const& segmentation,
                        FusionConfig const& config) {
-  SurroundingsLook const look = look_around(belief.floor, belief.walls, segmentation);
+  // Before the frame adds its own points.
+  SurroundingsLook look;
+  if (config.visibility) {
+    look = look_around(belief.floor, belief.walls, segmentation);
+  }
   belief.floor = fused_floor(std::move(belief.floor), segmentation.floor, config.floor);
   FusedWalls walls =
       fused_walls({std::move(belief.walls), belief.next_wall_id}, segmentation.walls, config.walls);
