@@ -49,7 +49,7 @@ std::unique_ptr<Detector> open_detector(DetectorConfig const& config,
         throw InputError("detector.kind: recorded needs detector.file");
       }
       return std::make_unique<RecordedDetector>(config.file);
-    case DetectorKind::kSim:
+    case DetectorKind::kSim: {
       constexpr char const* kScheme = "sim:";
       if (!source_uri.starts_with(kScheme)) {
         throw InputError("detector.kind: sim needs a simulated source, --source " + source_uri +
@@ -57,6 +57,10 @@ std::unique_ptr<Detector> open_detector(DetectorConfig const& config,
       }
       return std::make_unique<SimDetector>(
           load_scene(source_uri.substr(std::string(kScheme).size())), config.sim);
+    }
+    case DetectorKind::kBpa:
+    case DetectorKind::kRemote:
+      throw InputError("detector.kind: bpa and remote are not there yet");
   }
   return nullptr;
 }

@@ -43,12 +43,52 @@ FieldList fields(SimDetectorConfig& config) {
   };
 }
 
+FieldList fields(BpaConfig& config) {
+  return {
+      choice(
+          "search", config.search, {"tracked", "global", "both"},
+          "around where the belief expects an object, in the whole frame, or there only for what "
+          "is not found where it is expected"),
+      {"min_probability",
+       &config.min_probability,
+       {0, 1},
+       "",
+       "a pose less likely right than this is no detection"},
+      {"global_every_frames",
+       &config.global_every_frames,
+       {1, 100000},
+       "frames",
+       "what is not found where it is expected is looked for everywhere once in so many"},
+      {"global_lag_frames",
+       &config.global_lag_frames,
+       {0, 1000},
+       "frames",
+       "what is found everywhere is told so much later; the search runs beside the pipeline "
+       "meanwhile; 0: the frame waits"},
+      {"cache", &config.cache, {}, "", "folder that keeps prepared models; empty: none are kept"},
+      {"seed", &config.seed, {0, 1e9}, "", "of all random choices"},
+  };
+}
+
+FieldList fields(RemoteDetectorConfig& config) {
+  return {
+      {"timeout_s",
+       &config.timeout_s,
+       {0, 3600},
+       "s",
+       "a frame that is not answered so long is one without detections"},
+  };
+}
+
 FieldList fields(DetectorConfig& config) {
   return {
-      choice("kind", config.kind, {"none", "recorded", "sim"},
-             "nobody, a file of recorded detections, or a simulated scene's own truth"),
+      choice("kind", config.kind, {"none", "recorded", "sim", "bpa", "remote"},
+             "nobody, a file of recorded detections, a simulated scene's own truth, Bingham "
+             "Procrustean alignment, or another process over DDS"),
       {"file", &config.file, {}, "", "recorded detections, JSON lines (kind: recorded)"},
       section("sim", fields(config.sim), "how far the simulated detector strays from the truth"),
+      section("bpa", fields(config.bpa), "Bingham Procrustean alignment: models found in depth"),
+      section("remote", fields(config.remote), "a detector in another process, over DDS"),
   };
 }
 

@@ -16,6 +16,10 @@ enum class DetectorKind : std::uint8_t {
   kRecorded,
   /// The truth of a simulated scene, spoilt as told.
   kSim,
+  /// Bingham Procrustean alignment, in this process.
+  kBpa,
+  /// Another process, asked over DDS.
+  kRemote,
 };
 
 /// A detector that knows the truth of a simulated scene, and how far it strays from it.
@@ -36,12 +40,48 @@ struct SimDetectorConfig {
 };
 FieldList fields(SimDetectorConfig& config);
 
+/// Where known objects are looked for.
+enum class ObjectSearch : std::uint8_t {
+  /// Around where the belief expects them.
+  kTracked,
+  /// In the whole frame, each time.
+  kGlobal,
+  /// Around where the belief expects them; in the whole frame for those not found there.
+  kBoth,
+};
+
+/// Bingham Procrustean alignment: finds models in depth alone.
+struct BpaConfig {
+  ObjectSearch search = ObjectSearch::kBoth;
+  /// A pose less likely right than this is no detection.
+  double min_probability = 0.5;
+  /// An object that is not found where it is expected is looked for everywhere once in so many
+  /// frames.
+  int global_every_frames = 10;
+  /// What is found everywhere is told so many frames later: the search runs beside the pipeline
+  /// meanwhile. With 0 the frame waits for it.
+  int global_lag_frames = 3;
+  /// Prepared models are kept in this folder from run to run; empty: nowhere.
+  std::string cache;
+  int seed = 1;
+};
+FieldList fields(BpaConfig& config);
+
+/// A detector in another process.
+struct RemoteDetectorConfig {
+  /// A frame that is not answered so long is one without detections.
+  double timeout_s = 0.5;
+};
+FieldList fields(RemoteDetectorConfig& config);
+
 /// The black box behind the interface Detector.
 struct DetectorConfig {
   DetectorKind kind = DetectorKind::kNone;
   /// Of recorded detections, JSON lines.
   std::string file;
   SimDetectorConfig sim;
+  BpaConfig bpa;
+  RemoteDetectorConfig remote;
 };
 FieldList fields(DetectorConfig& config);
 
