@@ -6,6 +6,7 @@
 
 #include "config/yaml_config.hpp"
 #include "core/error.hpp"
+#include "detector/bpa_detector.hpp"
 #include "io/recorded_detections.hpp"
 #include "model_files.hpp"
 #include "scene_file.hpp"
@@ -39,8 +40,8 @@ LoadedPrior load_prior(fs::path const& path, double probability) {
   return loaded;
 }
 
-std::unique_ptr<Detector> open_detector(DetectorConfig const& config,
-                                        std::string const& source_uri) {
+std::unique_ptr<Detector> open_detector(DetectorConfig const& config, std::string const& source_uri,
+                                        ObjectModels const& models) {
   switch (config.kind) {
     case DetectorKind::kNone:
       return nullptr;
@@ -59,8 +60,9 @@ std::unique_ptr<Detector> open_detector(DetectorConfig const& config,
           load_scene(source_uri.substr(std::string(kScheme).size())), config.sim);
     }
     case DetectorKind::kBpa:
+      return std::make_unique<BpaDetector>(models, config.bpa);
     case DetectorKind::kRemote:
-      throw InputError("detector.kind: bpa and remote are not there yet");
+      throw InputError("detector.kind: remote is not there yet");
   }
   return nullptr;
 }

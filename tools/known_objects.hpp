@@ -25,9 +25,10 @@ struct LoadedPrior {
 /// Throws InputError with one line for the first fault, or for all of one file's.
 LoadedPrior load_prior(std::filesystem::path const& path, double probability);
 
-/// The detector that the config asks for; null for `none`. Throws InputError where it cannot be
-/// had: a file that is not right, or `sim` for a source that is no scene.
-std::unique_ptr<Detector> open_detector(DetectorConfig const& config,
-                                        std::string const& source_uri);
+/// The detector that the config asks for, of objects that look like `models`; null for `none`.
+/// Throws InputError where it cannot be had: a file that is not right, `sim` for a source that is
+/// no scene, or, for `bpa`, a model that cannot be seen.
+std::unique_ptr<Detector> open_detector(DetectorConfig const& config, std::string const& source_uri,
+                                        ObjectModels const& models);
 
 }  // namespace credo

@@ -21,6 +21,7 @@ constexpr char const* kExamples = R"(Examples:
   credo watch --json --once --timeout 5
   credo simulate first-light --out data/room --set sim.sensor=disparity
   credo eval out/room --truth data/room
+  credo detect --source dataset:recordings/desk --model cat.yaml --picture found.png
   credo why out/room stuff:7
   credo config --set fusion.prior_probability=0.9 > my.yaml
   credo run --source sim:first-light --config my.yaml --out out/room
@@ -48,6 +49,7 @@ int run_command_line(int argc, char** argv) {
   credo::add_watch_command(app, chosen);
   credo::add_simulate_command(app, chosen);
   credo::add_eval_command(app, chosen);
+  credo::add_detect_command(app, chosen);
   credo::add_why_command(app, chosen);
   credo::add_devices_command(app, chosen);
   credo::add_calibrate_command(app, chosen);

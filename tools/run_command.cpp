@@ -119,7 +119,7 @@ std::shared_ptr<KnownObjects const> known_objects(ObjectModels models, PipelineC
   known->models = std::move(models);
   known->shapes = shapes_of(known->models);
   known->surfaces = known_surfaces(known->models);
-  known->detector = open_detector(config.detector, source_uri);
+  known->detector = open_detector(config.detector, source_uri, known->models);
   return known;
 }
 

@@ -1,0 +1,102 @@
+#include "detector/global_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+
+#include "detector/pair_proposals.hpp"
+#include "detector/pose_distance.hpp"
+#include "detector/pose_refinement.hpp"
+#include "detector/pose_score.hpp"
+
+namespace credo {
+namespace {
+
+/// A pose on its way through the funnel.
+struct Scored {
+  CameraPose pose;
+  std::uint16_t segment = 0;
+  float score = 0.0F;
+};
+
+/// One step of the funnel: the best so many poses go on, refined, and are scored again.
+struct FunnelStep {
+  std::size_t survivors;
+  /// Poses nearer to a better one than this, in diameters, are dropped before.
+  float apart_diameters;
+  RefinementConfig refinement;
+  std::size_t score_points;
+};
+
+constexpr std::size_t kCoarsePoints = 100;
+constexpr std::array<FunnelStep, 3> kFunnel = {
+    FunnelStep{120, 0.15F, {4, 120, 0.030F}, 250},
+    FunnelStep{40, 0.10F, {6, 250, 0.015F}, 500},
+    FunnelStep{16, 0.06F, {5, 800, 0.010F}, 800},
+};
+/// So many poses of each segment go on, however poor beside others.
+constexpr int kOfEachSegment = 2;
+constexpr float kCandidatesApart_diameters = 0.10F;
+
+void sort_best_first(std::vector<Scored>& poses) {
+  std::ranges::stable_sort(poses, std::greater{}, &Scored::score);
+}
+
+/// The best, none near to a better one; and the best of each segment.
+std::vector<Scored> survivors(std::vector<Scored> poses, PoseDistance const& distance,
+                              float apart_m, std::size_t count) {
+  sort_best_first(poses);
+  std::vector<Scored> kept;
+  std::map<std::uint16_t, int> of_segment;
+  for (Scored const& pose : poses) {
+    bool const wanted = kept.size() < count || of_segment[pose.segment] < kOfEachSegment;
+    if (!wanted || pose.score <= PoseScore::kWorst) {
+      continue;
+    }
+    bool const apart = std::ranges::none_of(
+        kept, [&](Scored const& better) { return distance(better.pose, pose.pose) < apart_m; });
+    if (apart) {
+      kept.push_back(pose);
+      ++of_segment[pose.segment];
+    }
+    if (kept.size() >= 2 * count) {
+      break;
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<Candidate> search_everywhere(SearchModel const& model, PairTable const& pairs,
+                                         SearchScene const& scene, std::size_t max_candidates) {
+  PoseScore const score(model, scene);
+  PoseDistance const distance(model);
+  std::vector<Scored> poses;
+  for (Proposal const& proposal : propose_by_pairs(model, pairs, scene)) {
+    poses.push_back({proposal.pose, proposal.segment, score(proposal.pose, kCoarsePoints)});
+  }
+  for (FunnelStep const& step : kFunnel) {
+    poses = survivors(std::move(poses), distance, step.apart_diameters * model.diameter_m,
+                      step.survivors);
+    for (Scored& pose : poses) {
+      pose.pose = refined(model, scene, pose.pose, step.refinement);
+      pose.score = score(pose.pose, step.score_points);
+    }
+  }
+  poses = survivors(std::move(poses), distance, kCandidatesApart_diameters * model.diameter_m,
+                    kFunnel.back().survivors);
+  std::vector<Candidate> candidates;
+  for (Scored const& pose : poses) {
+    candidates.push_back({pose.pose, verified(model, scene, pose.pose, {})});
+  }
+  std::ranges::stable_sort(candidates, std::greater{}, [](Candidate const& candidate) {
+    return candidate.verification.probability;
+  });
+  candidates.resize(std::min(candidates.size(), max_candidates));
+  return candidates;
+}
+
+}  // namespace credo

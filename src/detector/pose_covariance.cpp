@@ -1,0 +1,38 @@
+#include "detector/pose_covariance.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "detector/pose_refinement.hpp"
+
+namespace credo {
+namespace {
+
+constexpr std::size_t kPoints = 800;
+/// Neighbouring pixels err alike: so many of them are worth one.
+constexpr double kEffectiveShare = 0.3;
+/// What all points of a frame have in common.
+constexpr double kBiasAlongRay_m = 0.0007;
+constexpr double kBiasAcross_m = 0.00035;
+constexpr double kUnknown_m = 1.0;
+constexpr double kUnknown_rad = 2.0;
+
+}  // namespace
+
+PoseDistribution with_covariance(SearchModel const& model, SearchScene const& scene,
+                                 CameraPose const& pose) {
+  PoseEvidence const evidence = evidence_of(model, scene, pose, kPoints);
+  Matrix6d information =
+      evidence.information * (kEffectiveShare / std::max(1.0, evidence.mean_squared_residual));
+  information.diagonal().head<3>().array() += 1.0 / (kUnknown_m * kUnknown_m);
+  information.diagonal().tail<3>().array() += 1.0 / (kUnknown_rad * kUnknown_rad);
+  Matrix6d covariance = information.inverse();
+  covariance = (covariance + covariance.transpose()) / 2.0;
+  Eigen::Vector3d const ray = pose.translation_m.cast<double>().normalized();
+  covariance.topLeftCorner<3, 3>() +=
+      kBiasAcross_m * kBiasAcross_m * Eigen::Matrix3d::Identity() +
+      (kBiasAlongRay_m * kBiasAlongRay_m - kBiasAcross_m * kBiasAcross_m) * ray * ray.transpose();
+  return {se3(pose), covariance};
+}
+
+}  // namespace credo

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "core/se3.hpp"
+#include "detector/camera_pose.hpp"
+#include "detector/search_model.hpp"
+#include "detector/search_scene.hpp"
+
+namespace credo {
+
+/// How sure the scene alone makes of a pose, in the camera frame (boxplus): no expectation enters.
+/// Along what cannot be seen, such as turns about a symmetry axis or shifts along a bare edge, it
+/// is a metre, or two radians. Positive definite.
+[[nodiscard]] PoseDistribution with_covariance(SearchModel const& model, SearchScene const& scene,
+                                               CameraPose const& pose);
+
+}  // namespace credo

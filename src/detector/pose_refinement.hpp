@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+
+#include "detector/camera_pose.hpp"
+#include "detector/search_model.hpp"
+#include "detector/search_scene.hpp"
+
+namespace credo {
+
+struct RefinementConfig {
+  int iterations = 5;
+  /// So many of the points that the nearest view shows.
+  std::size_t points = 250;
+  /// A point that is farther from what it falls on does not count.
+  float gate_m = 0.02F;
+};
+
+/// A pose moved to where the scene's surface is: point-to-plane ICP along the model's normals
+/// (Chen and Medioni 1992) with projective association and Cauchy weights. What lies on a plane
+/// larger than the model does not count, nor where normals differ by more than 60 degrees. With
+/// fewer than 6 points that count, the pose as it is.
+[[nodiscard]] CameraPose refined(SearchModel const& model, SearchScene const& scene,
+                                 CameraPose const& pose, RefinementConfig const& config);
+
+/// What the scene says about small errors of a pose (boxplus in the camera frame, at the model's
+/// origin): the information of all points that count, one deviation of each by the sensor's noise.
+struct PoseEvidence {
+  Matrix6d information = Matrix6d::Zero();
+  /// Points that count.
+  int points = 0;
+  /// Of the residuals, in their deviations, squared.
+  double mean_squared_residual = 0.0;
+};
+[[nodiscard]] PoseEvidence evidence_of(SearchModel const& model, SearchScene const& scene,
+                                       CameraPose const& pose, std::size_t points);
+
+}  // namespace credo

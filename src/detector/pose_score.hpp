@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "detector/camera_pose.hpp"
+#include "detector/search_model.hpp"
+#include "detector/search_scene.hpp"
+
+namespace credo {
+
+/// How well some of a model's points, at a pose, agree with a scene.
+class PoseScore {
+public:
+  PoseScore(SearchModel const& model, SearchScene const& scene);
+
+  /// Of the first `points` that the nearest view shows: those whose depth and normal agree, less
+  /// those that the scene is seen through, over those that are not hidden; less what of the
+  /// silhouette lies within one surface. At most 1; a pose that is not before the camera has
+  /// kWorst.
+  [[nodiscard]] float operator()(CameraPose const& pose, std::size_t points) const;
+
+  static constexpr float kWorst = -10.0F;
+
+private:
+  [[nodiscard]] bool background(ScenePixel const& pixel) const {
+    return pixel.plane != kNoPlane && large_plane_[pixel.plane];
+  }
+  [[nodiscard]] float outline_loss(ModelView const& view, CameraPose const& pose) const;
+
+  SearchModel const& model_;
+  SearchScene const& scene_;
+  /// By position in SearchScene::planes.
+  std::vector<bool> large_plane_;
+};
+
+}  // namespace credo

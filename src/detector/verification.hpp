@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/grid.hpp"
+#include "detector/camera_pose.hpp"
+#include "detector/search_model.hpp"
+#include "detector/search_scene.hpp"
+#include "geometry/depth_patch.hpp"
+
+namespace credo {
+
+/// What a rendered model says to the scene, pixel by pixel.
+enum class PixelVerdict : std::uint8_t {
+  /// No surface of the model, or nothing is known of it.
+  kNone,
+  /// The scene is as deep as the model.
+  kIn,
+  /// On a plane larger than the model: it may be the plane alone.
+  kBackground,
+  /// The scene is seen through the model.
+  kSeenThrough,
+  /// Something stands before it.
+  kOccluded,
+  kUnmeasured,
+};
+
+/// How well a pose explains a scene, from a picture of all of the model.
+struct Verification {
+  int in_px = 0;
+  int background_px = 0;
+  int seen_through_px = 0;
+  int occluded_px = 0;
+  int no_depth_px = 0;
+  /// Mean of the normals' agreement over `in_px`.
+  float normal_agreement = 0.0F;
+  /// Of the segments that it touches, the share that it explains.
+  float explained = 0.0F;
+  /// Share of its silhouette where the surface goes on beyond it.
+  float outline_open = 0.0F;
+  /// Of the picture of the model alone, within the image, that is in or on background.
+  float visible_fraction = 0.0F;
+  /// That the pose is right.
+  float probability = 0.0F;
+  /// Pixels that it explains, as positions in the scene's grid, rising.
+  std::vector<std::uint32_t> explained_px;
+
+  [[nodiscard]] int shown_px() const {
+    return in_px + background_px + seen_through_px + occluded_px + no_depth_px;
+  }
+};
+
+/// Pixels that other objects explain already; they hide what is behind and within them.
+using ClaimedPixels = Grid<std::uint8_t>;
+
+/// Renders the model and holds it against the scene. `claimed` is empty, or as large as the image.
+[[nodiscard]] Verification verified(SearchModel const& model, SearchScene const& scene,
+                                    CameraPose const& pose, ClaimedPixels const& claimed);
+
+}  // namespace credo

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace credo {
+
+/// 162 unit vectors all around, none more than 11 degrees from the next: the corners of an
+/// icosahedron whose faces are twice cut in four.
+[[nodiscard]] std::vector<Eigen::Vector3f> view_directions();
+
+}  // namespace credo
