@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 
+#include "detector/facet_proposals.hpp"
 #include "detector/pair_proposals.hpp"
 #include "detector/pose_distance.hpp"
 #include "detector/pose_refinement.hpp"
@@ -68,6 +69,18 @@ std::vector<Scored> survivors(std::vector<Scored> poses, PoseDistance const& dis
   return kept;
 }
 
+/// Only where that betters it: surfaces draw a pose along themselves, past their silhouettes.
+void refine(Scored& pose, SearchModel const& model, SearchScene const& scene,
+            PoseScore const& score, FunnelStep const& step) {
+  CameraPose const moved = refined(model, scene, pose.pose, step.refinement);
+  float const before = score(pose.pose, step.score_points);
+  float const after = score(moved, step.score_points);
+  pose.score = std::max(before, after);
+  if (after > before) {
+    pose.pose = moved;
+  }
+}
+
 }  // namespace
 
 std::vector<Candidate> search_everywhere(SearchModel const& model, PairTable const& pairs,
@@ -75,15 +88,17 @@ std::vector<Candidate> search_everywhere(SearchModel const& model, PairTable con
   PoseScore const score(model, scene);
   PoseDistance const distance(model);
   std::vector<Scored> poses;
-  for (Proposal const& proposal : propose_by_pairs(model, pairs, scene)) {
-    poses.push_back({proposal.pose, proposal.segment, score(proposal.pose, kCoarsePoints)});
+  for (auto const& proposals :
+       {propose_by_pairs(model, pairs, scene), propose_by_facets(model, scene)}) {
+    for (Proposal const& proposal : proposals) {
+      poses.push_back({proposal.pose, proposal.segment, score(proposal.pose, kCoarsePoints)});
+    }
   }
   for (FunnelStep const& step : kFunnel) {
     poses = survivors(std::move(poses), distance, step.apart_diameters * model.diameter_m,
                       step.survivors);
     for (Scored& pose : poses) {
-      pose.pose = refined(model, scene, pose.pose, step.refinement);
-      pose.score = score(pose.pose, step.score_points);
+      refine(pose, model, scene, score, step);
     }
   }
   poses = survivors(std::move(poses), distance, kCandidatesApart_diameters * model.diameter_m,

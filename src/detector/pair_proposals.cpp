@@ -17,9 +17,9 @@ constexpr int kLeastSegment_px = 60;
 constexpr std::size_t kKeysPerReference = 16;
 constexpr std::size_t kFewestReferences = 5;
 constexpr std::size_t kMostReferences = 12;
-constexpr int kMostPeaks = 3;
+constexpr std::size_t kMostPeaks = 3;
 constexpr float kLeastPeak = 0.7F;
-constexpr int kSameSegmentVotes = 2;
+constexpr std::uint16_t kSameSegmentVotes = 2;
 
 /// A point of the scene that pairs begin and end with.
 struct Key {
@@ -73,8 +73,9 @@ public:
   explicit Votes(std::size_t references) : counts_(references * kTurns) {}
 
   void clear() { std::ranges::fill(counts_, 0); }
-  void add(std::uint16_t reference, std::uint16_t turn, int count) {
-    counts_[reference * kTurns + (turn >> kTurnShift)] += count;
+  void add(std::uint16_t reference, std::uint16_t turn, std::uint16_t count) {
+    std::uint16_t& votes = counts_[reference * kTurns + (turn >> kTurnShift)];
+    votes = static_cast<std::uint16_t>(votes + count);
   }
 
   struct Peak {
@@ -84,32 +85,41 @@ public:
   /// The best, and what comes close to it elsewhere; clears them.
   std::vector<Peak> take_peaks() {
     std::vector<Peak> peaks;
-    int best = 0;
+    float best = 0.0F;
     while (peaks.size() < kMostPeaks) {
-      auto const top = std::ranges::max_element(counts_);
-      best = std::max(best, *top);
-      if (*top == 0 || static_cast<float>(*top) < kLeastPeak * static_cast<float>(best)) {
+      std::uint16_t const top = most();
+      best = std::max(best, static_cast<float>(top));
+      if (top == 0 || static_cast<float>(top) < kLeastPeak * best) {
         break;
       }
-      auto const place = static_cast<std::size_t>(top - counts_.begin());
+      auto const place =
+          static_cast<std::size_t>(std::ranges::find(counts_, top) - counts_.begin());
       peaks.push_back(peak_at(place / kTurns, place % kTurns));
     }
     return peaks;
   }
 
 private:
+  /// A loop that compilers turn into vectors, as they do not std::max_element.
+  [[nodiscard]] std::uint16_t most() const {
+    std::uint16_t most = 0;
+    for (std::uint16_t const count : counts_) {
+      most = count > most ? count : most;
+    }
+    return most;
+  }
   Peak peak_at(std::size_t reference, std::size_t turn) {
-    int* row = counts_.data() + reference * kTurns;
+    std::uint16_t* row = counts_.data() + reference * kTurns;
     std::size_t const before = (turn + kTurns - 1) % kTurns;
     std::size_t const after = (turn + 1) % kTurns;
     auto const sum = static_cast<float>(row[before] + row[turn] + row[after]);
-    float const shift = static_cast<float>(row[after] - row[before]) / sum;
+    float const shift = (static_cast<float>(row[after]) - static_cast<float>(row[before])) / sum;
     row[before] = row[turn] = row[after] = 0;
     constexpr float kStep_rad = 2.0F * std::numbers::pi_v<float> / static_cast<float>(kTurns);
     return {reference, (static_cast<float>(turn) + 0.5F + shift) * kStep_rad};
   }
 
-  std::vector<int> counts_;
+  std::vector<std::uint16_t> counts_;
 };
 
 std::uint16_t coded_turn(float turn_rad) {
@@ -203,7 +213,7 @@ std::vector<Proposal> propose_by_pairs(SearchModel const& model, PairTable const
       Eigen::Vector4f const feature =
           PairFeature::of(from.point, from.normal, to.point, to.normal, pairs.step_m());
       std::uint16_t const turn = coded_turn(frame.turn_of(to.point));
-      int const count = to.segment == from.segment ? kSameSegmentVotes : 1;
+      std::uint16_t const count = to.segment == from.segment ? kSameSegmentVotes : 1;
       for (PairTable::Entry const& entry : pairs.like(feature)) {
         votes.add(entry.reference, static_cast<std::uint16_t>(turn - entry.turn), count);
       }

@@ -31,9 +31,37 @@ std::vector<ViewSet> views_showing(SearchModel const& model) {
   return showing;
 }
 
+/// The arc cosine, by a polynomial that is off by less than 0.0001 rad (Abramowitz and Stegun
+/// 4.4.45); the library's costs as much as all the rest of a pair.
+float arc_cosine(float cosine) {
+  float const x = std::min(std::abs(cosine), 1.0F);
+  float const root = std::sqrt(1.0F - x);
+  float const angle = root * (1.5707288F + x * (-0.2121144F + x * (0.0742610F - 0.0187293F * x)));
+  return cosine < 0.0F ? std::numbers::pi_v<float> - angle : angle;
+}
+
 float angle_steps(float cosine) {
   constexpr float kPerRadian = PairFeature::kAngleSteps / std::numbers::pi_v<float>;
-  return std::acos(std::clamp(cosine, -1.0F, 1.0F)) * kPerRadian;
+  return arc_cosine(cosine) * kPerRadian;
+}
+
+/// The angle of (x, y), off by less than 0.0003 rad (as arc_cosine, by 4.4.49's like).
+float angle_of(float y, float x) {
+  float const ax = std::abs(x);
+  float const ay = std::abs(y);
+  float const most = std::max(ax, ay);
+  if (most == 0.0F) {
+    return 0.0F;
+  }
+  float const ratio = std::min(ax, ay) / most;
+  float const square = ratio * ratio;
+  float angle =
+      ratio * (0.9998660F +
+               square * (-0.3302995F +
+                         square * (0.1801410F + square * (-0.0851330F + square * 0.0208351F))));
+  angle = ay > ax ? std::numbers::pi_v<float> / 2.0F - angle : angle;
+  angle = x < 0.0F ? std::numbers::pi_v<float> - angle : angle;
+  return y < 0.0F ? -angle : angle;
 }
 
 std::uint16_t coded(float turn_rad) {
@@ -60,7 +88,7 @@ NormalFrame::NormalFrame(Eigen::Vector3f const& point, Eigen::Vector3f const& no
 
 float NormalFrame::turn_of(Eigen::Vector3f const& other) const {
   Eigen::Vector3f const p = rotation * other + translation_m;
-  return std::atan2(p.z(), p.y());
+  return angle_of(p.z(), p.y());
 }
 
 PairTable::PairTable(SearchModel const& model)

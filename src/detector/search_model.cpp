@@ -2,8 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "core/error.hpp"
 #include "detector/model_views.hpp"
@@ -97,6 +101,72 @@ void drop_hidden_points(SearchModel& model) {
   }
 }
 
+/// A facet whose points fill less than half of its rectangle is no face to lay on another.
+constexpr float kLeastFilled = 0.5F;
+constexpr float kLeastFacetShare = 0.06F;
+constexpr std::size_t kLeastFacetPoints = 20;
+
+void set_facets(SearchModel& model) {
+  std::vector<OrientedPoint> points;
+  for (std::size_t i = 0; i < model.points_model.size(); ++i) {
+    points.push_back({model.points_model[i], model.normals_model[i]});
+  }
+  // Poisson discs leave a point about 1.45 spacings squared.
+  float const of_point_m2 = 1.45F * model.spacing_m * model.spacing_m;
+  for (Facet const& facet :
+       facets_of(std::move(points), model.spacing_m, kLeastFacetShare, kLeastFacetPoints)) {
+    float const filled_m2 = static_cast<float>(facet.points) * of_point_m2;
+    if (filled_m2 > kLeastFilled * 4.0F * facet.half_length_m * facet.half_width_m) {
+      model.facets.push_back(facet);
+    }
+  }
+}
+
+/// Meshes of fewer triangles are rendered as they are.
+constexpr std::size_t kFineTriangles = 2500;
+constexpr float kCell_diameters = 1.0F / 70.0F;
+
+/// Joins all vertices in a cube to their mean.
+void set_rendered_mesh(SearchModel& model, TriangleMesh const& mesh) {
+  model.vertices_model = mesh.vertices;
+  model.triangles = mesh.triangles;
+  if (mesh.triangles.size() <= kFineTriangles) {
+    return;
+  }
+  float const cell_m = kCell_diameters * model.diameter_m;
+  std::map<std::array<int, 3>, std::uint32_t> cells;
+  std::vector<std::uint32_t> cell_of(mesh.vertices.size());
+  std::vector<Eigen::Vector3f> sums;
+  std::vector<float> counts;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    Eigen::Array3i const place = (mesh.vertices[i] / cell_m).array().floor().cast<int>();
+    auto const [known, is_new] =
+        cells.try_emplace({place[0], place[1], place[2]}, static_cast<std::uint32_t>(sums.size()));
+    if (is_new) {
+      sums.emplace_back(Eigen::Vector3f::Zero());
+      counts.push_back(0.0F);
+    }
+    cell_of[i] = known->second;
+    sums[known->second] += mesh.vertices[i];
+    counts[known->second] += 1.0F;
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    sums[i] /= counts[i];
+  }
+  std::set<std::array<std::uint32_t, 3>> known;
+  model.triangles.clear();
+  for (auto const& [a, b, c] : mesh.triangles) {
+    std::array<std::uint32_t, 3> const joined = {cell_of[a], cell_of[b], cell_of[c]};
+    bool const flat = joined[0] == joined[1] || joined[1] == joined[2] || joined[0] == joined[2];
+    std::array<std::uint32_t, 3> sorted = joined;
+    std::ranges::sort(sorted);
+    if (!flat && known.insert(sorted).second) {
+      model.triangles.push_back(joined);
+    }
+  }
+  model.vertices_model = std::move(sums);
+}
+
 }  // namespace
 
 ModelView const& SearchModel::view_from(Eigen::Vector3f const& to_camera_model) const {
@@ -124,11 +194,12 @@ SearchModel prepare_model(ObjectModel const& model) {
     throw InputError("model " + model.name + ": has no surface, so nothing of it can be seen");
   }
   prepared.vertices_model = mesh.vertices;
-  prepared.triangles = mesh.triangles;
   set_extent(prepared);
+  set_rendered_mesh(prepared, mesh);
   set_points(prepared, mesh);
   prepared.views = views_of(prepared);
   drop_hidden_points(prepared);
+  set_facets(prepared);
   return prepared;
 }
 

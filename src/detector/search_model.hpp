@@ -8,6 +8,7 @@
 
 #include "core/object_model.hpp"
 #include "detector/camera_pose.hpp"
+#include "detector/facets.hpp"
 #include "geometry/depth_patch.hpp"
 
 namespace credo {
@@ -50,7 +51,11 @@ struct SearchModel {
   std::vector<Eigen::Vector3f> normals_model;
   float spacing_m = 0.0F;
 
-  /// For rendering.
+  /// Its flat pieces, if it has any; model frame.
+  std::vector<Facet> facets;
+
+  /// For rendering: the model's own mesh, or, where that is fine, one whose corners are no more
+  /// than a seventieth of the diameter off.
   std::vector<Eigen::Vector3f> vertices_model;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 

@@ -164,6 +164,34 @@ void mark_planes(SearchScene& scene) {
   }
 }
 
+/// Every third pixel of every third row is enough for flat pieces.
+constexpr int kFacetStep_px = 3;
+constexpr std::size_t kFacetPoints = 25;
+constexpr float kFacetShare = 0.08F;
+
+std::vector<Facet> scene_facets(SearchScene const& scene) {
+  std::vector<std::vector<OrientedPoint>> of_segments(scene.segments.size());
+  for (int v = 0; v < scene.pixels.height(); v += kFacetStep_px) {
+    for (int u = 0; u < scene.pixels.width(); u += kFacetStep_px) {
+      ScenePixel const& pixel = scene.pixels[{u, v}];
+      if (pixel.segment > 0 && pixel.has_normal()) {
+        of_segments[pixel.segment - 1U].push_back(
+            {scene.point_at({u, v}), pixel.normal_camera().normalized()});
+      }
+    }
+  }
+  std::vector<Facet> facets;
+  for (std::size_t i = 0; i < of_segments.size(); ++i) {
+    float const tolerance_m = depth_tolerance_m(scene.segments[i].centre_m.z());
+    for (Facet& facet :
+         facets_of(std::move(of_segments[i]), tolerance_m, kFacetShare, kFacetPoints)) {
+      facet.segment = static_cast<std::uint16_t>(i + 1);
+      facets.push_back(facet);
+    }
+  }
+  return facets;
+}
+
 }  // namespace
 
 SearchScene prepare_scene(Grid<float> const& depth_m, CameraIntrinsics const& intrinsics,
@@ -177,6 +205,7 @@ SearchScene prepare_scene(Grid<float> const& depth_m, CameraIntrinsics const& in
   }
   scene.planes = planes_of(scene, moments);
   mark_planes(scene);
+  scene.facets = scene_facets(scene);
   return scene;
 }
 

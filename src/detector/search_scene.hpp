@@ -9,6 +9,7 @@
 #include "core/frame.hpp"
 #include "core/grid.hpp"
 #include "core/segments.hpp"
+#include "detector/facets.hpp"
 #include "geometry/depth_patch.hpp"
 
 namespace credo {
@@ -61,6 +62,8 @@ struct SearchScene {
   std::vector<SceneSegment> segments;
   /// Largest first.
   std::vector<ScenePlane> planes;
+  /// Of all segments.
+  std::vector<Facet> facets;
 
   [[nodiscard]] ImageSize size() const { return {pixels.width(), pixels.height()}; }
   [[nodiscard]] Eigen::Vector3f point_at(Pixel pixel) const {
