@@ -61,10 +61,10 @@ FieldList fields(BpaConfig& config) {
        "what is not found where it is expected is looked for everywhere once in so many"},
       {"global_lag_frames",
        &config.global_lag_frames,
-       {0, 1000},
+       {-1, 1000},
        "frames",
        "what is found everywhere is told so much later; the search runs beside the pipeline "
-       "meanwhile; 0: the frame waits"},
+       "meanwhile; 0: the frame waits; -1: as soon as it is done (live)"},
       {"cache", &config.cache, {}, "", "folder that keeps prepared models; empty: none are kept"},
       {"seed", &config.seed, {0, 1e9}, "", "of all random choices"},
   };

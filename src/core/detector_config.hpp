@@ -59,7 +59,8 @@ struct BpaConfig {
   /// frames.
   int global_every_frames = 10;
   /// What is found everywhere is told so many frames later: the search runs beside the pipeline
-  /// meanwhile. With 0 the frame waits for it.
+  /// meanwhile. With 0 the frame waits for it; with -1 it is told as soon as it is there, which may
+  /// differ from run to run.
   int global_lag_frames = 3;
   /// Prepared models are kept in this folder from run to run; empty: nowhere.
   std::string cache;

@@ -58,6 +58,30 @@ Detection detection_of(SearchModel const& model, SearchScene const& scene,
   return detection;
 }
 
+ObjectAnswer answer_of(DetectionRequest const& request, SearchModel const* model,
+                       std::optional<Candidate> const& found, SearchScene const& scene) {
+  if (model == nullptr) {
+    return {};
+  }
+  if (!found) {
+    return {verdict_at(*model, scene, request.expected_camera.mean), std::nullopt};
+  }
+  return {ObjectVerdict::kFound, detection_of(*model, scene, *found, request.type)};
+}
+
+/// What has a model and no pose.
+std::vector<DetectionRequest> missing(std::vector<DetectionRequest> const& requests,
+                                      std::vector<ObjectCandidates> const& objects,
+                                      std::vector<std::optional<Candidate>> const& found) {
+  std::vector<DetectionRequest> missing;
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    if (objects[i].model != nullptr && !found[i]) {
+      missing.push_back(requests[i]);
+    }
+  }
+  return missing;
+}
+
 }  // namespace
 
 BpaDetector::BpaDetector(ObjectModels const& models, BpaConfig config)
@@ -81,23 +105,20 @@ std::vector<ObjectAnswer> BpaDetector::answers(Frame const& frame,
   for (DetectionRequest const& request : requests) {
     objects.push_back({model_of(request), candidates_of(request, *scene, frame)});
   }
+  auto const least = static_cast<float>(config_.min_probability);
   if (is_due(frame)) {
     collect(frame, *scene, requests, objects);
   }
-  auto const least = static_cast<float>(config_.min_probability);
-  std::vector<std::optional<Candidate>> const found = choose_jointly(objects, *scene, least);
-  std::vector<ObjectAnswer> answers(requests.size());
-  std::vector<DetectionRequest> missing;
-  for (std::size_t i = 0; i < requests.size(); ++i) {
-    if (found[i]) {
-      answers[i].verdict = ObjectVerdict::kFound;
-      answers[i].detection = detection_of(*objects[i].model, *scene, *found[i], requests[i].type);
-    } else if (objects[i].model != nullptr) {
-      answers[i].verdict = verdict_at(*objects[i].model, *scene, requests[i].expected_camera.mean);
-      missing.push_back(requests[i]);
-    }
+  std::vector<std::optional<Candidate>> found = choose_jointly(objects, *scene, least);
+  start_job(frame, scene, missing(requests, objects, found));
+  if (config_.global_lag_frames == 0 && is_due(frame)) {
+    collect(frame, *scene, requests, objects);
+    found = choose_jointly(objects, *scene, least);
   }
-  start_job(frame, scene, missing);
+  std::vector<ObjectAnswer> answers;
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    answers.push_back(answer_of(requests[i], objects[i].model, found[i], *scene));
+  }
   return answers;
 }
 
