@@ -132,7 +132,8 @@ Eigen::Vector3f model_point(ViewImage const& image, Eigen::Vector2f const& pixel
 std::optional<OutlinePair> pair_at(ViewImage const& image, Pixel border) {
   Eigen::Vector2f const at(static_cast<float>(border.u), static_cast<float>(border.v));
   Eigen::Vector2f const out = outward(image, border);
-  Eigen::Vector2f const inside = at - out * std::max(1.0F, kInside_m / image.pixel_m);
+  float const inside_px = std::max(1.0F, kInside_m / image.pixel_m);
+  Eigen::Vector2f const inside = at - out * inside_px;
   Eigen::Vector2f const outside = at + out * std::max(2.0F, kOutside_m / image.pixel_m);
   auto const rounded = [](Eigen::Vector2f const& p) {
     return Pixel{static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y()))};
@@ -142,7 +143,9 @@ std::optional<OutlinePair> pair_at(ViewImage const& image, Pixel border) {
     return std::nullopt;
   }
   return OutlinePair{model_point(image, inside, image.depth_m[in]),
-                     model_point(image, outside, image.depth_m[in])};
+                     model_point(image, outside, image.depth_m[in]),
+                     // The border's own pixel is inside as well.
+                     (inside_px + 0.5F) * image.pixel_m};
 }
 
 std::vector<OutlinePair> outline_of(ViewImage const& image) {

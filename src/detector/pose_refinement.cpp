@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "detector/edge_contacts.hpp"
 #include "detector/scene_projection.hpp"
 
 namespace credo {
@@ -66,11 +67,47 @@ private:
   float gate_m_;
 };
 
-/// How the residual changes with a shift and a turn about `centre`.
-Vector6f gradient(Contact const& contact, Eigen::Vector3f const& centre) {
+/// How a distance along `direction` at `point` changes with a shift and a turn about `centre`.
+Vector6f gradient(Eigen::Vector3f const& point, Eigen::Vector3f const& direction,
+                  Eigen::Vector3f const& centre) {
   Vector6f row;
-  row << contact.normal, (contact.point - centre).cross(contact.normal);
+  row << direction, (point - centre).cross(direction);
   return row;
+}
+
+/// The normal equations of one step.
+struct Equations {
+  Matrix6f information = Matrix6f::Zero();
+  Vector6f pull = Vector6f::Zero();
+  int contacts = 0;
+
+  void add(Vector6f const& row, float residual_m, float weight) {
+    information.noalias() += weight * row * row.transpose();
+    pull += weight * residual_m * row;
+    ++contacts;
+  }
+};
+
+/// So much of the surface's weight has the silhouette, if all of it is found.
+constexpr float kEdgeShare = 0.5F;
+
+void add_edges(SearchModel const& model, SearchScene const& scene, CameraPose const& pose,
+               ModelView const& view, float scale_m, Equations& equations) {
+  if (view.outline.empty()) {
+    return;
+  }
+  float const of_each =
+      kEdgeShare * static_cast<float>(equations.contacts) / static_cast<float>(view.outline.size());
+  Eigen::Vector3f const centre = pose * model.centre_model;
+  for (OutlinePair const& pair : view.outline) {
+    if (auto const contact = edge_contact(model, scene, pose, pair)) {
+      float const in_deviations = contact->residual_m / (2.0F * contact->deviation_m);
+      float const weight =
+          std::min(1.0F, scale_m / contact->deviation_m) / (1.0F + in_deviations * in_deviations);
+      equations.add(gradient(contact->point, contact->direction, centre), contact->residual_m,
+                    of_each * weight);
+    }
+  }
 }
 
 CameraPose moved(CameraPose const& pose, Eigen::Vector3f const& centre, Vector6f const& step) {
@@ -95,28 +132,23 @@ CameraPose refined(SearchModel const& model, SearchScene const& scene, CameraPos
   for (int iteration = 0; iteration < config.iterations; ++iteration) {
     Eigen::Vector3f const centre = pose * model.centre_model;
     float const scale_m = 1.5F * deviation_m(centre.z());
-    Matrix6f information = Matrix6f::Zero();
-    Vector6f pull = Vector6f::Zero();
-    int used = 0;
+    Equations equations;
     for (std::size_t k = 0; k < count; ++k) {
-      auto const contact = contacts.at(pose, view.visible[k]);
-      if (!contact) {
-        continue;
+      if (auto const contact = contacts.at(pose, view.visible[k])) {
+        float const in_scales = contact->residual_m / scale_m;
+        equations.add(gradient(contact->point, contact->normal, centre), contact->residual_m,
+                      1.0F / (1.0F + in_scales * in_scales));
       }
-      float const in_scales = contact->residual_m / scale_m;
-      float const weight = 1.0F / (1.0F + in_scales * in_scales);
-      Vector6f const row = gradient(*contact, centre);
-      information.noalias() += weight * row * row.transpose();
-      pull += weight * contact->residual_m * row;
-      ++used;
     }
-    if (used < kFewestPoints) {
+    if (equations.contacts < kFewestPoints) {
       return pose;
     }
-    float const damping = kDamping * static_cast<float>(used);
+    add_edges(model, scene, pose, view, scale_m, equations);
+    float const damping = kDamping * static_cast<float>(equations.contacts);
+    Matrix6f& information = equations.information;
     information.diagonal().head<3>().array() += damping;
     information.diagonal().tail<3>().array() += damping * length_m * length_m;
-    Vector6f const step = information.ldlt().solve(pull);
+    Vector6f const step = information.ldlt().solve(equations.pull);
     if (!step.allFinite()) {
       return pose;
     }
@@ -126,6 +158,28 @@ CameraPose refined(SearchModel const& model, SearchScene const& scene, CameraPos
   pose.rotation = Eigen::Quaternionf(pose.rotation).normalized().toRotationMatrix();
   return pose;
 }
+
+namespace {
+
+/// The silhouette tells of shifts along surfaces. Its errors have more in common than those of
+/// surfaces: so many of its points are worth one.
+constexpr double kEdgeWorth = 0.3;
+
+void add_edge_evidence(SearchModel const& model, SearchScene const& scene, CameraPose const& pose,
+                       ModelView const& view, PoseEvidence& evidence) {
+  for (OutlinePair const& pair : view.outline) {
+    auto const contact = edge_contact(model, scene, pose, pair);
+    if (!contact || std::abs(contact->residual_m) > 3.0F * contact->deviation_m) {
+      continue;
+    }
+    Vector6d const row =
+        (gradient(contact->point, contact->direction, pose.translation_m) / contact->deviation_m)
+            .cast<double>();
+    evidence.information += kEdgeWorth * row * row.transpose();
+  }
+}
+
+}  // namespace
 
 PoseEvidence evidence_of(SearchModel const& model, SearchScene const& scene, CameraPose const& pose,
                          std::size_t points) {
@@ -141,11 +195,13 @@ PoseEvidence evidence_of(SearchModel const& model, SearchScene const& scene, Cam
     float const deviation = deviation_m(contact->point.z());
     float const in_deviations = contact->residual_m / deviation;
     float const weight = 1.0F / (1.0F + in_deviations * in_deviations / 4.0F);
-    Vector6d const row = (gradient(*contact, pose.translation_m) / deviation).cast<double>();
+    Vector6d const row =
+        (gradient(contact->point, contact->normal, pose.translation_m) / deviation).cast<double>();
     evidence.information += static_cast<double>(weight) * row * row.transpose();
     evidence.mean_squared_residual += static_cast<double>(in_deviations * in_deviations);
     ++evidence.points;
   }
+  add_edge_evidence(model, scene, pose, view, evidence);
   if (evidence.points > 0) {
     evidence.mean_squared_residual /= evidence.points;
   }

@@ -17,6 +17,8 @@ namespace credo {
 struct OutlinePair {
   Eigen::Vector3f inside_model;
   Eigen::Vector3f outside_model;
+  /// From the inner one to the silhouette.
+  float inside_m = 0.0F;
 };
 
 /// What a model shows of itself from one side.
