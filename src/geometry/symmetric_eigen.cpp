@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace credo {
 namespace {
@@ -75,7 +76,8 @@ SymmetricEigen symmetric_eigen(Eigen::Matrix4d const& A) {
     rotate<1, 2, 0, 3>(on);
   }
   std::array<int, 4> order = {0, 1, 2, 3};
-  std::ranges::stable_sort(order, {}, [&](int i) { return on.a[i][i]; });
+  // Equal values stay in their order; a stable sort would allocate.
+  std::ranges::sort(order, {}, [&](int i) { return std::pair(on.a[i][i], i); });
   SymmetricEigen result;
   for (int k = 0; k < 4; ++k) {
     result.values[k] = on.a[order[k]][order[k]];
