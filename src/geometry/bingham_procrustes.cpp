@@ -74,8 +74,9 @@ double curvature_sign(FrameMatch const& match, Eigen::Matrix4d const& A, std::mt
   Eigen::Vector4d const flipped = left_product(wxyz(as_told)).rightCols<3>() * match.normal.model;
   Eigen::Vector4d const told = wxyz(as_told);
   double const liking = told.dot(A * told) - flipped.dot(A * flipped);
-  constexpr double kIndifferent = 1e-9;
-  if (std::abs(liking) <= kIndifferent * A.norm()) {
+  // As a logarithm of a ratio. Less is rounding.
+  constexpr double kIndifferent = 1e-6;
+  if (std::abs(liking) <= kIndifferent) {
     return draw_uniform(random) < 0.5 ? 1.0 : -1.0;
   }
   return liking > 0.0 ? 1.0 : -1.0;
