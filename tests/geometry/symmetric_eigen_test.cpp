@@ -56,6 +56,14 @@ TEST(SymmetricEigen, EqualValuesAreNoTrouble) {
   }
 }
 
+// Two axes with nothing to turn, while two others have.
+TEST(SymmetricEigen, APairMayBeDoneAlready) {
+  Matrix4d A;
+  A << 1, 2, 0, 0, 2, 1, 0, 0, 0, 0, 3, 0, 0, 0, 0, 3;
+  expect_right(A);
+  expect_right(A.reverse());
+}
+
 TEST(SymmetricEigen, ReadsTheUpperTriangleOnly) {
   Matrix4d A;
   A << 4, 1, 2, 3, 99, 3, 0, 1, 99, 99, 2, 5, 99, 99, 99, 1;
