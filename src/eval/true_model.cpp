@@ -54,4 +54,12 @@ double TrueModel::add_s_m(Se3 const& believed, Se3 const& truth) const {
   return sum / static_cast<double>(surface_points_.size());
 }
 
+double TrueModel::add_m(Se3 const& believed, Se3 const& truth) const {
+  double sum = 0.0;
+  for (Eigen::Vector3d const& point : surface_points_) {
+    sum += (believed * point - truth * point).norm();
+  }
+  return sum / static_cast<double>(surface_points_.size());
+}
+
 }  // namespace credo

@@ -33,6 +33,9 @@ public:
   /// Mean distance from points of the believed surface to the true surface (ADD-S of Hinterstoisser
   /// et al. 2012, in the limit of dense points).
   [[nodiscard]] double add_s_m(Se3 const& believed, Se3 const& truth) const;
+  /// Mean distance between the same points of both surfaces (ADD of the same paper). Turns that
+  /// the symmetry allows count as errors here.
+  [[nodiscard]] double add_m(Se3 const& believed, Se3 const& truth) const;
   [[nodiscard]] Symmetry const& symmetry() const { return symmetry_; }
 
 private:

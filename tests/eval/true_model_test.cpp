@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/solid.hpp"
+#include "geometry/surface_points.hpp"
 
 namespace credo::test {
 namespace {
@@ -56,6 +59,42 @@ TEST(TrueModel, AddSIsTheMeanDistanceOfTheSurfaces) {
   EXPECT_NEAR(model.add_s_m(moved({0, 0, 0.004}), Se3{}), 0.002, 2e-4);
   EXPECT_NEAR(model.add_s_m(turned(2.0, {0, 0, 1}), Se3{}), 0.0, 1e-9) << "no sign of the turn";
   EXPECT_NEAR(model.centre_distance_m(moved({0, 0, 0.3}), Se3{}), 0.3, 1e-12);
+}
+
+/// ADD-S by its definition: each point's nearest among many.
+double literal_add_s_m(std::vector<Eigen::Vector3d> const& points, Se3 const& believed,
+                       Se3 const& truth) {
+  double sum = 0.0;
+  for (Eigen::Vector3d const& point : points) {
+    double least = 1e9;
+    for (Eigen::Vector3d const& other : points) {
+      least = std::min(least, (believed * point - truth * other).norm());
+    }
+    sum += least;
+  }
+  return sum / static_cast<double>(points.size());
+}
+
+TEST(TrueModel, AddSIsThatOfDensePoints) {
+  ObjectModel const box{"box", std::vector<Solid>{box_on_base({0.06, 0.1, 0.14})}, {}};
+  std::vector<Eigen::Vector3d> const points = surface_points(box, 0.0025);
+  TrueModel const model(box);
+  for (Se3 const& error : {moved({0.01, -0.02, 0.015}), turned(0.4, {0, 0.6, 0.8}),
+                           moved({0, 0, 0.03}) * turned(2.0, {1, 0, 0})}) {
+    double const literal = literal_add_s_m(points, error, Se3{});
+    EXPECT_NEAR(model.add_s_m(error, Se3{}), literal, 0.05 * literal + 5e-4);
+  }
+}
+
+TEST(TrueModel, AddIsTheMeanWayOfThePoints) {
+  ObjectModel const box{"box", std::vector<Solid>{box_on_base({0.3, 0.4, 0.5})}, {}};
+  TrueModel const model(box);
+  EXPECT_NEAR(model.add_m(moved({0.03, 0.04, 0}), Se3{}), 0.05, 1e-12);
+  // Half a turn takes each point to twice its distance from the axis: a box keeps its surface.
+  double const half = model.add_m(turned(std::numbers::pi, Eigen::Vector3d::UnitZ()), Se3{});
+  EXPECT_GT(half, 0.2);
+  EXPECT_LT(half, 0.5);
+  EXPECT_NEAR(model.add_s_m(turned(std::numbers::pi, Eigen::Vector3d::UnitZ()), Se3{}), 0.0, 1e-9);
 }
 
 }  // namespace

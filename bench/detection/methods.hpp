@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/object_model.hpp"
+#include "views.hpp"
+
+namespace credo {
+
+/// A way to find objects, made ready for some models.
+struct Method {
+  std::string name;
+  std::function<std::unique_ptr<Detector>(std::vector<ObjectModel> const&)> make;
+};
+
+/// All there are. The views must outlive the methods (one of them is the truth).
+[[nodiscard]] std::vector<Method> all_methods(std::vector<TableView> const& views);
+
+}  // namespace credo
