@@ -1,5 +1,7 @@
 #include "methods.hpp"
 
+#include "core/detector_config.hpp"
+#include "detector/bpa_detector.hpp"
 #include "truth_detector.hpp"
 
 namespace credo {
@@ -15,6 +17,16 @@ std::unique_ptr<Detector> made(std::vector<ObjectModel> const& models) {
 
 std::vector<Method> all_methods(std::vector<TableView> const& views) {
   return {
+      {"bpa",
+       [](std::vector<ObjectModel> const& models) -> std::unique_ptr<Detector> {
+         ObjectModels named;
+         for (ObjectModel const& model : models) {
+           named.emplace(model.name, model);
+         }
+         BpaConfig config;
+         config.search = ObjectSearch::kGlobal;
+         return std::make_unique<BpaDetector>(named, config);
+       }},
       {"truth", [&views](auto const&) { return std::make_unique<TruthDetector>(views); }},
   };
 }

@@ -53,7 +53,7 @@ Detection detection_of(SearchModel const& model, SearchScene const& scene,
   Detection detection;
   detection.type = type;
   detection.pose_camera = with_covariance(model, scene, candidate.pose);
-  detection.score = static_cast<double>(candidate.verification.probability);
+  detection.score = static_cast<double>(candidate.probability);
   detection.visible_fraction = static_cast<double>(candidate.verification.visible_fraction);
   return detection;
 }

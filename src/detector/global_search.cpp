@@ -108,7 +108,7 @@ std::vector<Candidate> search_everywhere(SearchModel const& model, PairTable con
     candidates.push_back({pose.pose, verified(model, scene, pose.pose, {})});
   }
   std::ranges::stable_sort(candidates, std::greater{}, [](Candidate const& candidate) {
-    return candidate.verification.probability;
+    return candidate.verification.log_odds;
   });
   candidates.resize(std::min(candidates.size(), max_candidates));
   return candidates;

@@ -13,6 +13,8 @@ namespace credo {
 struct Candidate {
   CameraPose pose;
   Verification verification;
+  /// That it is right; set once its rivals are known.
+  float probability = 0.0F;
 };
 
 /// Where a model may be in a scene, likeliest first; at most `max_candidates`, none of which are

@@ -33,14 +33,16 @@ double log_odds_of(float probability, float min_probability) {
 std::vector<std::optional<Candidate>> choose_jointly(std::vector<ObjectCandidates> const& objects,
                                                      SearchScene const& scene,
                                                      float min_probability) {
+  std::vector<std::vector<Lead>> const leads = leads_of(objects, scene.pixels.width());
   std::vector<Explanation> explanations;
   std::vector<Place> places;
   for (std::size_t o = 0; o < objects.size(); ++o) {
     for (std::size_t c = 0; c < objects[o].candidates.size(); ++c) {
       Verification const& verification = objects[o].candidates[c].verification;
-      if (verification.probability >= min_probability && !verification.explained_px.empty()) {
+      float const probability = probability_among(verification.log_odds, leads[o][c]);
+      if (probability >= min_probability && !verification.explained_px.empty()) {
         explanations.push_back(
-            {o, log_odds_of(verification.probability, min_probability), verification.explained_px});
+            {o, log_odds_of(probability, min_probability), verification.explained_px});
         places.push_back({o, c});
       }
     }
@@ -53,10 +55,12 @@ std::vector<std::optional<Candidate>> choose_jointly(std::vector<ObjectCandidate
   for (std::size_t const i : chosen) {
     auto const& [object, position] = places[i];
     Candidate candidate = objects[object].candidates[position];
-    float const alone = candidate.verification.probability;
+    float const alone = candidate.verification.log_odds;
     candidate.verification = verified(*objects[object].model, scene, candidate.pose, claimed);
-    candidate.verification.probability = std::min(alone, candidate.verification.probability);
-    if (candidate.verification.probability < min_probability) {
+    candidate.verification.log_odds = std::min(alone, candidate.verification.log_odds);
+    candidate.probability =
+        probability_among(candidate.verification.log_odds, leads[object][position]);
+    if (candidate.probability < min_probability) {
       continue;
     }
     for (std::uint32_t const pixel : candidate.verification.explained_px) {

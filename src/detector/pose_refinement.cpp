@@ -21,12 +21,6 @@ constexpr int kFewestPoints = 6;
 /// Where points say nothing of a direction, no step is taken along it.
 constexpr float kDamping = 1e-3F;
 
-/// The sensor's deviation along a ray [m] (Nguyen, Izadi and Lovell 2012), and that of a model.
-float deviation_m(float depth_m) {
-  float const beyond_m = depth_m - 0.4F;
-  return 0.0015F + 0.0019F * beyond_m * beyond_m;
-}
-
 /// A point of the model and what it falls on.
 struct Contact {
   Eigen::Vector3f point;
@@ -131,7 +125,7 @@ CameraPose refined(SearchModel const& model, SearchScene const& scene, CameraPos
   float const length_m = model.radius_m;
   for (int iteration = 0; iteration < config.iterations; ++iteration) {
     Eigen::Vector3f const centre = pose * model.centre_model;
-    float const scale_m = 1.5F * deviation_m(centre.z());
+    float const scale_m = 1.5F * depth_deviation_m(centre.z());
     Equations equations;
     for (std::size_t k = 0; k < count; ++k) {
       if (auto const contact = contacts.at(pose, view.visible[k])) {
@@ -192,7 +186,7 @@ PoseEvidence evidence_of(SearchModel const& model, SearchScene const& scene, Cam
     if (!contact) {
       continue;
     }
-    float const deviation = deviation_m(contact->point.z());
+    float const deviation = depth_deviation_m(contact->point.z());
     float const in_deviations = contact->residual_m / deviation;
     float const weight = 1.0F / (1.0F + in_deviations * in_deviations / 4.0F);
     Vector6d const row =

@@ -86,6 +86,13 @@ struct SearchScene {
   return 0.006F + 0.003F * depth_m * depth_m;
 }
 
+/// The deviation of a measured depth from a model's, at right angles to it (Nguyen, Izadi and
+/// Lovell 2012, and 0.3 mm for the model).
+[[nodiscard]] inline float depth_deviation_m(float depth_m) {
+  float const beyond_m = depth_m - 0.4F;
+  return 0.0015F + 0.0019F * beyond_m * beyond_m;
+}
+
 /// Any frame gives a scene; one without depth has no segments and no planes.
 [[nodiscard]] SearchScene prepare_scene(Grid<float> const& depth_m,
                                         CameraIntrinsics const& intrinsics,

@@ -127,7 +127,7 @@ std::vector<Candidate> search_near(SearchModel const& model, SearchScene const& 
     candidates.push_back({pose.pose, verified(model, scene, pose.pose, {})});
   }
   std::ranges::stable_sort(candidates, std::greater{}, [](Candidate const& candidate) {
-    return candidate.verification.probability;
+    return candidate.verification.log_odds;
   });
   return candidates;
 }

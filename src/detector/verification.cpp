@@ -4,55 +4,62 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "detector/edge_contacts.hpp"
 
 namespace credo {
 namespace {
 
 constexpr float kSameSurface_m = 0.015F;
 
-/// The normal of a rendered surface by its neighbours, facing the camera; zero at its rim.
-Eigen::Vector3f patch_normal(DepthPatch const& patch, SearchScene const& scene, Pixel p) {
-  auto const depth = [&](int du, int dv) {
-    Pixel const q{p.u + du, p.v + dv};
-    return patch.depth_m.contains(q) ? patch.depth_m[q] : kNoSurface_m;
-  };
-  float const left = depth(-1, 0);
-  float const right = depth(1, 0);
-  float const up = depth(0, -1);
-  float const down = depth(0, 1);
-  if (std::max({left, right, up, down}) == kNoSurface_m) {
-    return Eigen::Vector3f::Zero();
+constexpr float kMostMisfit = 4.0F;
+
+constexpr int kBlock_px = 8;
+constexpr float kLeastOfBlock = 12.0F;
+
+/// Residuals of the depths, summed over blocks of a patch.
+class BlockResiduals {
+public:
+  explicit BlockResiduals(DepthPatch const& patch)
+      : blocks_(patch.depth_m.width() / kBlock_px + 1, patch.depth_m.height() / kBlock_px + 1) {}
+
+  void add(Pixel pixel, float in_deviations) {
+    Block& block = blocks_[Pixel{pixel.u / kBlock_px, pixel.v / kBlock_px}];
+    block.sum += in_deviations;
+    block.count += 1.0F;
   }
-  // In inverse depth w a plane is affine in the image: see estimate_normals.
-  auto const fx = static_cast<float>(scene.intrinsics.fx_px);
-  auto const fy = static_cast<float>(scene.intrinsics.fy_px);
-  float const w_u = (1.0F / right - 1.0F / left) / 2.0F;
-  float const w_v = (1.0F / down - 1.0F / up) / 2.0F;
-  float const x =
-      static_cast<float>(p.u + patch.corner.u) - static_cast<float>(scene.intrinsics.cx_px);
-  float const y =
-      static_cast<float>(p.v + patch.corner.v) - static_cast<float>(scene.intrinsics.cy_px);
-  Eigen::Vector3f const normal(w_u * fx, w_v * fy, 1.0F / patch.depth_m[p] - w_u * x - w_v * y);
-  return -normal.normalized();
-}
-
-struct Sums {
-  float normals = 0.0F;
-  int with_normals = 0;
-  /// Pixels in, by segment.
-  std::vector<std::pair<std::uint16_t, int>> in_segments;
-
-  void add(std::uint16_t segment) {
-    // Pixels come row by row, few segments at a time.
-    for (auto& [known, count] : in_segments) {
-      if (known == segment) {
-        ++count;
-        return;
+  [[nodiscard]] float misfit() const {
+    float sum = 0.0F;
+    float count = 0.0F;
+    for (Block const& block : blocks_) {
+      if (block.count >= kLeastOfBlock) {
+        sum += block.count * std::min(kMostMisfit, std::abs(2.0F * block.sum / block.count));
+        count += block.count;
       }
     }
-    in_segments.emplace_back(segment, 1);
+    return count > 0.0F ? sum / count : 0.0F;
   }
+
+private:
+  struct Block {
+    float sum = 0.0F;
+    float count = 0.0F;
+  };
+  Grid<Block> blocks_;
 };
+
+/// Pixels in, by segment; few segments at a time.
+using SegmentCounts = std::vector<std::pair<std::uint16_t, int>>;
+
+void count(SegmentCounts& counts, std::uint16_t segment) {
+  auto const known = std::ranges::find(counts, segment, &SegmentCounts::value_type::first);
+  if (known != counts.end()) {
+    ++known->second;
+  } else {
+    counts.emplace_back(segment, 1);
+  }
+}
 
 PixelVerdict verdict_at(SearchScene const& scene, ScenePixel const& seen, float model_depth_m,
                         float diameter_m, bool claimed) {
@@ -112,12 +119,12 @@ float open_outline(DepthPatch const& patch, Grid<PixelVerdict> const& verdicts,
   return border > 0 ? static_cast<float>(open) / static_cast<float>(border) : 0.0F;
 }
 
-float explained_share(Sums const& sums, SearchScene const& scene) {
+float explained_share(SegmentCounts const& counts, SearchScene const& scene) {
   double weighted = 0.0;
   double weights = 0.0;
-  for (auto const& [segment, count] : sums.in_segments) {
+  for (auto const& [segment, pixels] : counts) {
     if (segment > 0) {
-      double const in = count;
+      double const in = pixels;
       weighted += in * in / scene.segments[segment - 1U].pixels;
       weights += in;
     }
@@ -125,18 +132,29 @@ float explained_share(Sums const& sums, SearchScene const& scene) {
   return weights > 0.0 ? static_cast<float>(std::min(1.0, weighted / weights)) : 0.0F;
 }
 
-/// Logistic regression on simulated scenes; see docs/detection.md.
-float probability_of(Verification const& v) {
-  auto const in = static_cast<float>(v.in_px);
-  float const seen = in + static_cast<float>(v.background_px + v.seen_through_px);
-  if (v.in_px == 0) {
+float edges_found(SearchModel const& model, SearchScene const& scene, CameraPose const& pose) {
+  Eigen::Vector3f const centre = pose * model.centre_model;
+  ModelView const& view = model.view_from(-(pose.rotation.transpose() * centre));
+  if (view.outline.empty()) {
     return 0.0F;
   }
+  auto const found = std::ranges::count_if(view.outline, [&](OutlinePair const& pair) {
+    return edge_contact(model, scene, pose, pair).has_value();
+  });
+  return static_cast<float>(found) / static_cast<float>(view.outline.size());
+}
+
+/// Logistic regression on made table tops, with signs as they must be; see docs/detection.md.
+float log_odds_of(Verification const& v) {
+  auto const in = static_cast<float>(v.in_px);
+  if (v.in_px == 0) {
+    return -20.0F;
+  }
+  float const seen = in + static_cast<float>(v.background_px + v.seen_through_px);
   float const through = static_cast<float>(v.seen_through_px) / seen;
-  float const x = -4.0F + 5.0F * v.explained - 14.0F * through + 4.0F * v.normal_agreement -
-                  4.0F * v.outline_open + 0.5F * std::log(in / 500.0F) +
-                  1.5F * std::min(1.0F, v.visible_fraction / 0.5F);
-  return 1.0F / (1.0F + std::exp(-x));
+  return -8.8F + 5.9F * v.explained - 8.3F * through - 4.4F * v.outline_open +
+         0.53F * std::log(in / 500.0F) + 0.86F * std::min(1.0F, 2.0F * v.visible_fraction) +
+         5.2F * v.edges_found - 1.5F * v.block_misfit;
 }
 
 }  // namespace
@@ -146,7 +164,8 @@ Verification verified(SearchModel const& model, SearchScene const& scene, Camera
   DepthPatch const patch = model.rendered(pose, scene.intrinsics, scene.size());
   Grid<PixelVerdict> verdicts(patch.depth_m.width(), patch.depth_m.height(), PixelVerdict::kNone);
   Verification result;
-  Sums sums;
+  SegmentCounts in_segments;
+  BlockResiduals blocks(patch);
   std::array<int, 6> counts = {};
   for (int v = 0; v < patch.depth_m.height(); ++v) {
     for (int u = 0; u < patch.depth_m.width(); ++u) {
@@ -164,12 +183,8 @@ Verification verified(SearchModel const& model, SearchScene const& scene, Camera
         continue;
       }
       result.explained_px.push_back(static_cast<std::uint32_t>(scene.pixels.index(at)));
-      sums.add(seen.segment);
-      Eigen::Vector3f const normal = patch_normal(patch, scene, {u, v});
-      if (seen.has_normal() && normal != Eigen::Vector3f::Zero()) {
-        sums.normals += std::max(0.0F, normal.dot(seen.normal_camera()));
-        ++sums.with_normals;
-      }
+      count(in_segments, seen.segment);
+      blocks.add({u, v}, (seen.depth_m - depth_m) / depth_deviation_m(depth_m));
     }
   }
   result.in_px = counts[static_cast<std::size_t>(PixelVerdict::kIn)];
@@ -181,12 +196,11 @@ Verification verified(SearchModel const& model, SearchScene const& scene, Camera
     result.visible_fraction = static_cast<float>(result.in_px + result.background_px) /
                               static_cast<float>(result.shown_px());
   }
-  if (sums.with_normals > 0) {
-    result.normal_agreement = sums.normals / static_cast<float>(sums.with_normals);
-  }
-  result.explained = explained_share(sums, scene);
+  result.block_misfit = blocks.misfit();
+  result.edges_found = edges_found(model, scene, pose);
+  result.explained = explained_share(in_segments, scene);
   result.outline_open = open_outline(patch, verdicts, scene);
-  result.probability = probability_of(result);
+  result.log_odds = log_odds_of(result);
   return result;
 }
 

@@ -34,16 +34,19 @@ struct Verification {
   int seen_through_px = 0;
   int occluded_px = 0;
   int no_depth_px = 0;
-  /// Mean of the normals' agreement over `in_px`.
-  float normal_agreement = 0.0F;
+  /// Mean distance, over blocks of 8x8 pixels, of their mean depths, in halves of the sensor's
+  /// deviation, each 4 at most: noise averages out, another shape does not.
+  float block_misfit = 0.0F;
   /// Of the segments that it touches, the share that it explains.
   float explained = 0.0F;
   /// Share of its silhouette where the surface goes on beyond it.
   float outline_open = 0.0F;
+  /// Share of the nearest view's silhouette at which the scene's surface ends, too.
+  float edges_found = 0.0F;
   /// Of the picture of the model alone, within the image, that is in or on background.
   float visible_fraction = 0.0F;
-  /// That the pose is right.
-  float probability = 0.0F;
+  /// That the pose is right, by all of the above.
+  float log_odds = 0.0F;
   /// Pixels that it explains, as positions in the scene's grid, rising.
   std::vector<std::uint32_t> explained_px;
 
