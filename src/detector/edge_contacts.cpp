@@ -62,18 +62,20 @@ private:
 
 /// Where the surface ends, from the inner point on, and how well that is known.
 struct End {
+  EdgeVerdict verdict = EdgeVerdict::kOpen;
   float distance_m = 0.0F;
   float deviation_px = 0.0F;
 };
 
-std::optional<End> end_at(float distance_m, float step_m, Step outside) {
+End end_at(float distance_m, float step_m, Step outside) {
   if (outside == Step::kInFront || outside == Step::kUnknown) {
-    return std::nullopt;
+    return {EdgeVerdict::kHidden};
   }
-  return End{distance_m - 0.5F * step_m, outside == Step::kBeyond ? kJump_px : kCrease_px};
+  return {EdgeVerdict::kFound, distance_m - 0.5F * step_m,
+          outside == Step::kBeyond ? kJump_px : kCrease_px};
 }
 
-std::optional<End> find_end(Line const& line, float step_m) {
+End find_end(Line const& line, float step_m) {
   Step const inside = line.at(0.0F, 0);
   if (inside == Step::kOn) {
     std::uint16_t const segment = line.segment_at(0.0F);
@@ -83,7 +85,7 @@ std::optional<End> find_end(Line const& line, float step_m) {
         return end_at(distance_m, step_m, step);
       }
     }
-    return std::nullopt;
+    return {};
   }
   Step outside = inside;
   for (float distance_m = -step_m; distance_m >= -kReach_m; distance_m -= step_m) {
@@ -93,36 +95,32 @@ std::optional<End> find_end(Line const& line, float step_m) {
     }
     outside = step;
   }
-  return std::nullopt;
+  bool const hidden = inside == Step::kInFront || inside == Step::kUnknown;
+  return {hidden ? EdgeVerdict::kHidden : EdgeVerdict::kOpen};
 }
 
 }  // namespace
 
-std::optional<EdgeContact> edge_contact(SearchModel const& model, SearchScene const& scene,
-                                        CameraPose const& pose, OutlinePair const& pair) {
+EdgeLook look_at_edge(SearchModel const& model, SearchScene const& scene, CameraPose const& pose,
+                      OutlinePair const& pair) {
   Eigen::Vector3f const inside = pose * pair.inside_model;
   Eigen::Vector3f const outside = pose * pair.outside_model;
-  if (!(inside.z() > 0.0F)) {
-    return std::nullopt;
-  }
   // The view that the pair comes from may be a few degrees off.
   Eigen::Vector3f const ray = inside.normalized();
   Eigen::Vector3f const across = (outside - inside) - ray * ray.dot(outside - inside);
-  if (!(across.squaredNorm() > 0.0F)) {
-    return std::nullopt;
+  if (!(inside.z() > 0.0F) || !(across.squaredNorm() > 0.0F)) {
+    return {};
   }
-  EdgeContact contact;
-  contact.direction = across.normalized();
+  Eigen::Vector3f const direction = across.normalized();
   float const pixel_m = inside.z() / static_cast<float>(scene.intrinsics.fx_px);
-  auto const end = find_end(Line(model, scene, inside, contact.direction), pixel_m);
-  if (!end) {
-    return std::nullopt;
-  }
-  float const border_m = pair.inside_m;
-  contact.point = inside + border_m * contact.direction;
-  contact.residual_m = end->distance_m - border_m;
-  contact.deviation_m = std::max(0.002F, end->deviation_px * pixel_m);
-  return contact;
+  End const end = find_end(Line(model, scene, inside, direction), pixel_m);
+  EdgeLook look;
+  look.verdict = end.verdict;
+  look.contact.direction = direction;
+  look.contact.point = inside + pair.inside_m * direction;
+  look.contact.residual_m = end.distance_m - pair.inside_m;
+  look.contact.deviation_m = std::max(0.002F, end.deviation_px * pixel_m);
+  return look;
 }
 
 }  // namespace credo

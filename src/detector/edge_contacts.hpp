@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
+#include <cstdint>
 
 #include "detector/camera_pose.hpp"
 #include "detector/search_model.hpp"
@@ -19,13 +19,26 @@ struct EdgeContact {
   float deviation_m = 0.0F;
 };
 
+/// What the scene shows at a point of a silhouette.
+enum class EdgeVerdict : std::uint8_t {
+  /// The surface ends.
+  kFound,
+  /// It goes on, or nothing of it is there.
+  kOpen,
+  /// Something stands before it, or depth is missing.
+  kHidden,
+};
+
+struct EdgeLook {
+  EdgeVerdict verdict = EdgeVerdict::kHidden;
+  /// If found.
+  EdgeContact contact;
+};
+
 /// Looks along the line through both points of a pair, 20 mm either way, for where the surface that
 /// the inner one lies on ends: by a jump in depth, known to 1.5 pixels, or at another segment,
-/// to 4. None where it does not end, where nothing of it is there, and where it ends behind
-/// something nearer.
-[[nodiscard]] std::optional<EdgeContact> edge_contact(SearchModel const& model,
-                                                      SearchScene const& scene,
-                                                      CameraPose const& pose,
-                                                      OutlinePair const& pair);
+/// to 4.
+[[nodiscard]] EdgeLook look_at_edge(SearchModel const& model, SearchScene const& scene,
+                                    CameraPose const& pose, OutlinePair const& pair);
 
 }  // namespace credo

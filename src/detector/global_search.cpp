@@ -8,6 +8,7 @@
 
 #include "detector/facet_proposals.hpp"
 #include "detector/pair_proposals.hpp"
+#include "detector/polishing.hpp"
 #include "detector/pose_distance.hpp"
 #include "detector/pose_refinement.hpp"
 #include "detector/pose_score.hpp"
@@ -105,7 +106,7 @@ std::vector<Candidate> search_everywhere(SearchModel const& model, PairTable con
                     kFunnel.back().survivors);
   std::vector<Candidate> candidates;
   for (Scored const& pose : poses) {
-    candidates.push_back({pose.pose, verified(model, scene, pose.pose, {})});
+    candidates.push_back(polished(model, scene, pose.pose));
   }
   std::ranges::stable_sort(candidates, std::greater{}, [](Candidate const& candidate) {
     return candidate.verification.log_odds;

@@ -94,11 +94,13 @@ void add_edges(SearchModel const& model, SearchScene const& scene, CameraPose co
       kEdgeShare * static_cast<float>(equations.contacts) / static_cast<float>(view.outline.size());
   Eigen::Vector3f const centre = pose * model.centre_model;
   for (OutlinePair const& pair : view.outline) {
-    if (auto const contact = edge_contact(model, scene, pose, pair)) {
-      float const in_deviations = contact->residual_m / (2.0F * contact->deviation_m);
+    EdgeLook const look = look_at_edge(model, scene, pose, pair);
+    if (look.verdict == EdgeVerdict::kFound) {
+      EdgeContact const& contact = look.contact;
+      float const in_deviations = contact.residual_m / (2.0F * contact.deviation_m);
       float const weight =
-          std::min(1.0F, scale_m / contact->deviation_m) / (1.0F + in_deviations * in_deviations);
-      equations.add(gradient(contact->point, contact->direction, centre), contact->residual_m,
+          std::min(1.0F, scale_m / contact.deviation_m) / (1.0F + in_deviations * in_deviations);
+      equations.add(gradient(contact.point, contact.direction, centre), contact.residual_m,
                     of_each * weight);
     }
   }
@@ -162,12 +164,14 @@ constexpr double kEdgeWorth = 0.3;
 void add_edge_evidence(SearchModel const& model, SearchScene const& scene, CameraPose const& pose,
                        ModelView const& view, PoseEvidence& evidence) {
   for (OutlinePair const& pair : view.outline) {
-    auto const contact = edge_contact(model, scene, pose, pair);
-    if (!contact || std::abs(contact->residual_m) > 3.0F * contact->deviation_m) {
+    EdgeLook const look = look_at_edge(model, scene, pose, pair);
+    EdgeContact const& contact = look.contact;
+    if (look.verdict != EdgeVerdict::kFound ||
+        std::abs(contact.residual_m) > 3.0F * contact.deviation_m) {
       continue;
     }
     Vector6d const row =
-        (gradient(contact->point, contact->direction, pose.translation_m) / contact->deviation_m)
+        (gradient(contact.point, contact.direction, pose.translation_m) / contact.deviation_m)
             .cast<double>();
     evidence.information += kEdgeWorth * row * row.transpose();
   }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 
+#include "detector/polishing.hpp"
 #include "detector/pose_distance.hpp"
 #include "detector/pose_refinement.hpp"
 #include "detector/pose_score.hpp"
@@ -124,7 +125,7 @@ std::vector<Candidate> search_near(SearchModel const& model, SearchScene const& 
   keep_best(poses, distance, 0.05F * model.diameter_m, max_candidates);
   std::vector<Candidate> candidates;
   for (Scored const& pose : poses) {
-    candidates.push_back({pose.pose, verified(model, scene, pose.pose, {})});
+    candidates.push_back(polished(model, scene, pose.pose));
   }
   std::ranges::stable_sort(candidates, std::greater{}, [](Candidate const& candidate) {
     return candidate.verification.log_odds;

@@ -135,13 +135,15 @@ float explained_share(SegmentCounts const& counts, SearchScene const& scene) {
 float edges_found(SearchModel const& model, SearchScene const& scene, CameraPose const& pose) {
   Eigen::Vector3f const centre = pose * model.centre_model;
   ModelView const& view = model.view_from(-(pose.rotation.transpose() * centre));
-  if (view.outline.empty()) {
-    return 0.0F;
+  float found = 0.0F;
+  float open = 0.0F;
+  for (OutlinePair const& pair : view.outline) {
+    EdgeVerdict const verdict = look_at_edge(model, scene, pose, pair).verdict;
+    found += verdict == EdgeVerdict::kFound ? 1.0F : 0.0F;
+    open += verdict == EdgeVerdict::kOpen ? 1.0F : 0.0F;
   }
-  auto const found = std::ranges::count_if(view.outline, [&](OutlinePair const& pair) {
-    return edge_contact(model, scene, pose, pair).has_value();
-  });
-  return static_cast<float>(found) / static_cast<float>(view.outline.size());
+  // Two more, one of each: few say little.
+  return (found + 1.0F) / (found + open + 2.0F);
 }
 
 /// Logistic regression on made table tops, with signs as they must be; see docs/detection.md.

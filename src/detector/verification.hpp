@@ -41,7 +41,8 @@ struct Verification {
   float explained = 0.0F;
   /// Share of its silhouette where the surface goes on beyond it.
   float outline_open = 0.0F;
-  /// Share of the nearest view's silhouette at which the scene's surface ends, too.
+  /// Share of the nearest view's silhouette, as far as it is not hidden, at which the scene's
+  /// surface ends, too; drawn to a half where little of it is seen.
   float edges_found = 0.0F;
   /// Of the picture of the model alone, within the image, that is in or on background.
   float visible_fraction = 0.0F;

@@ -114,6 +114,9 @@ TEST(FitBingham, RefusesWhatHasNoFit) {
   EXPECT_THROW((void)fit_bingham(one, std::vector<double>{1.0, 1.0}), std::logic_error);
   EXPECT_THROW((void)fit_bingham(one, std::vector<double>{-1.0}), std::logic_error);
   EXPECT_THROW((void)fit_bingham(one, std::vector<double>{nan}), std::logic_error);
+  // Also where another makes up for it.
+  std::vector<Quaterniond> const two = {Quaterniond::Identity(), so3_exp({0.3, 0.2, -0.6})};
+  EXPECT_THROW((void)fit_bingham(two, std::vector<double>{2.0, -1.0}), std::logic_error);
   EXPECT_THROW((void)fit_bingham(std::vector<Quaterniond>{{nan, 0, 0, 0}}), std::logic_error);
   EXPECT_THROW((void)fit_to_scatter(Matrix4d::Zero()), std::logic_error);
   EXPECT_THROW((void)fit_to_scatter(-Matrix4d::Identity()), std::logic_error);

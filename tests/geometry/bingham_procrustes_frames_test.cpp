@@ -219,6 +219,30 @@ TEST(SamplePoseWithPrior, IsTheWeighedDrawWithoutIt) {
   EXPECT_GT(((twin.mean()).array() / deviation.array()).abs().maxCoeff(), 0.5);
 }
 
+// Given the rotation, the translation's information is the sum of both.
+TEST(SamplePoseWithPrior, TranslationsAddInformation) {
+  ProcrustesPose const pose = align(off_centre_points());
+  Matrix3d const turn = so3_exp({0.3, 0.9, -0.2}).toRotationMatrix();
+  TranslationPrior const prior{kPose.translation(),
+                               turn * Vector3d(2e-6, 5e-4, 2e-5).asDiagonal() * turn.transpose()};
+  Matrix3d const identity = Matrix3d::Identity();
+  Matrix3d const of_prior = prior.covariance_m2.inverse();
+  Matrix3d const covariance = (of_prior + pose.weight_per_m2 * identity).inverse();
+  std::mt19937_64 random(9);
+  constexpr int kDraws = 20000;
+  Matrix3d drawn = Matrix3d::Zero();
+  for (int i = 0; i < kDraws; ++i) {
+    Se3 const any = sample_pose(pose, prior, random).pose;
+    Vector3d const mean = covariance * (of_prior * prior.mean_m +
+                                        pose.weight_per_m2 * pose.translation_m(any.rotation()));
+    Vector3d const error = any.translation() - mean;
+    drawn += error * error.transpose() / kDraws;
+  }
+  Matrix3d const relative = covariance.inverse() * drawn;
+  EXPECT_LT((relative - identity).cwiseAbs().maxCoeff(), 0.3) << relative;
+  EXPECT_NEAR(relative.trace(), 3.0, 0.06);
+}
+
 TEST(SamplePoseWithPrior, RefusesWhatIsNoCovariance) {
   ProcrustesPose const pose = align(off_centre_points());
   std::mt19937_64 random(8);

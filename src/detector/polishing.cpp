@@ -1,0 +1,27 @@
+#include "detector/polishing.hpp"
+
+#include <utility>
+
+#include "detector/pose_refinement.hpp"
+
+namespace credo {
+namespace {
+
+constexpr RefinementConfig kRefinement = {8, 800, 0.012F};
+/// What is so unlikely is not worth the work.
+constexpr float kLeastLogOdds = -8.0F;
+
+}  // namespace
+
+Candidate polished(SearchModel const& model, SearchScene const& scene, CameraPose const& pose) {
+  Candidate rough{pose, verified(model, scene, pose, {})};
+  if (rough.verification.log_odds < kLeastLogOdds) {
+    return rough;
+  }
+  CameraPose const moved = refined(model, scene, pose, kRefinement);
+  Candidate fine{moved, verified(model, scene, moved, {})};
+  return fine.verification.log_odds > rough.verification.log_odds ? std::move(fine)
+                                                                  : std::move(rough);
+}
+
+}  // namespace credo

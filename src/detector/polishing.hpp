@@ -1,0 +1,19 @@
+#pragma once
+
+#include "detector/verification.hpp"
+
+namespace credo {
+
+/// A pose that was refined and held against the scene.
+struct Candidate {
+  CameraPose pose;
+  Verification verification;
+  /// That it is right; set once its rivals are known.
+  float probability = 0.0F;
+};
+
+/// A pose refined by all that its view shows, where that is likelier, and as it was where not.
+[[nodiscard]] Candidate polished(SearchModel const& model, SearchScene const& scene,
+                                 CameraPose const& pose);
+
+}  // namespace credo
