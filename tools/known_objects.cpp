@@ -6,6 +6,7 @@
 
 #include "config/yaml_config.hpp"
 #include "core/error.hpp"
+#include "dds/remote_detector.hpp"
 #include "io/recorded_detections.hpp"
 #include "model_files.hpp"
 #include "scene_file.hpp"
@@ -39,8 +40,9 @@ LoadedPrior load_prior(fs::path const& path, double probability) {
   return loaded;
 }
 
-std::unique_ptr<Detector> open_detector(DetectorConfig const& config,
-                                        std::string const& source_uri) {
+std::unique_ptr<Detector> open_detector(DetectorConfig const& config, DdsConfig const& dds,
+                                        std::string const& source_uri,
+                                        std::function<void(std::string const&)> tell) {
   switch (config.kind) {
     case DetectorKind::kNone:
       return nullptr;
@@ -58,9 +60,10 @@ std::unique_ptr<Detector> open_detector(DetectorConfig const& config,
       return std::make_unique<SimDetector>(
           load_scene(source_uri.substr(std::string(kScheme).size())), config.sim);
     }
-    case DetectorKind::kBpa:
     case DetectorKind::kRemote:
-      throw InputError("detector.kind: bpa and remote are not there yet");
+      return std::make_unique<RemoteDetector>(dds, config.remote, std::move(tell));
+    case DetectorKind::kBpa:
+      throw InputError("detector.kind: bpa is not there yet");
   }
   return nullptr;
 }
