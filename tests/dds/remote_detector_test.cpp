@@ -173,12 +173,13 @@ TEST_F(RemoteDetectorTest, ALateReplyIsDroppedAndCounted) {
     }
     return replies;
   });
-  auto const remote = detector(0.5);
+  auto const remote = detector(0.25);
   std::int64_t const frame = meet(*remote, 0);
   told_.clear();
   std::uint64_t const before = remote->late();
   mute = frame;
-  EXPECT_EQ(why_nobody_looked(*remote, frame), "no reply within 0.5 s (detector.remote.timeout_s)");
+  EXPECT_EQ(why_nobody_looked(*remote, frame),
+            "no reply within 0.25 s (detector.remote.timeout_s)");
   EXPECT_EQ(found_x(remote->detect(frame_of(frame + 1), {})), static_cast<double>(frame + 1));
   EXPECT_EQ(remote->late(), before + 1);
   std::string const answers =
