@@ -29,7 +29,7 @@ std::string line_of(FrameIndex frame, RefusedDetection const& refused) {
 }  // namespace
 
 std::vector<std::string> DetectionLog::told(Segmentation const& segmentation) {
-  looked_ = looked_ || segmentation.objects_looked_for;
+  (segmentation.objects_looked_for ? looked_ : not_looked_) += 1;
   taken_ += segmentation.objects.size();
   std::vector<std::string> lines;
   for (RefusedDetection const& refused : segmentation.refused) {
@@ -43,7 +43,7 @@ std::vector<std::string> DetectionLog::told(Segmentation const& segmentation) {
 }
 
 std::string DetectionLog::summary() const {
-  if (!looked_) {
+  if (looked_ == 0) {
     return {};
   }
   std::uint64_t total = 0;
@@ -53,8 +53,11 @@ std::string DetectionLog::summary() const {
     by_object += fmt::format("{}{} {}", by_object.empty() ? " (" : ", ", count,
                              object.empty() ? "of no object" : object);
   }
-  return fmt::format("objects: {} detections taken, {} refused{}\n", taken_, total,
-                     by_object.empty() ? "" : by_object + ")");
+  std::string const unlooked = not_looked_ > 0 ? fmt::format("; nobody looked in {} of {} frames",
+                                                             not_looked_, looked_ + not_looked_)
+                                               : "";
+  return fmt::format("objects: {} detections taken, {} refused{}{}\n", taken_, total,
+                     by_object.empty() ? "" : by_object + ")", unlooked);
 }
 
 }  // namespace credo

@@ -14,12 +14,13 @@ class DetectionLog {
 public:
   /// Lines to log for a frame; mostly none.
   std::vector<std::string> told(Segmentation const& segmentation);
-  /// "objects: 118 detections taken, 3 refused (2 table_1, 1 of no object)", empty where nobody
-  /// looked.
+  /// "objects: 118 detections taken, 3 refused (2 table_1, 1 of no object); nobody looked in 4 of
+  /// 41 frames", empty where nobody looked at all.
   [[nodiscard]] std::string summary() const;
 
 private:
-  bool looked_ = false;
+  std::uint64_t looked_ = 0;
+  std::uint64_t not_looked_ = 0;
   std::uint64_t taken_ = 0;
   /// By object; the empty name for those of no object.
   std::map<std::string, std::uint64_t> refused_;

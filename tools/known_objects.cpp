@@ -6,6 +6,7 @@
 
 #include "config/yaml_config.hpp"
 #include "core/error.hpp"
+#include "dds/remote_detector.hpp"
 #include "detector/bpa_detector.hpp"
 #include "io/recorded_detections.hpp"
 #include "model_files.hpp"
@@ -40,8 +41,9 @@ LoadedPrior load_prior(fs::path const& path, double probability) {
   return loaded;
 }
 
-std::unique_ptr<Detector> open_detector(DetectorConfig const& config, std::string const& source_uri,
-                                        ObjectModels const& models) {
+std::unique_ptr<Detector> open_detector(DetectorConfig const& config, DdsConfig const& dds,
+                                        std::string const& source_uri, ObjectModels const& models,
+                                        std::function<void(std::string const&)> tell) {
   switch (config.kind) {
     case DetectorKind::kNone:
       return nullptr;
@@ -62,7 +64,7 @@ std::unique_ptr<Detector> open_detector(DetectorConfig const& config, std::strin
     case DetectorKind::kBpa:
       return std::make_unique<BpaDetector>(models, config.bpa);
     case DetectorKind::kRemote:
-      throw InputError("detector.kind: remote is not there yet");
+      return std::make_unique<RemoteDetector>(dds, config.remote, std::move(tell));
   }
   return nullptr;
 }

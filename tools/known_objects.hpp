@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "core/dds_config.hpp"
 #include "core/detection.hpp"
 #include "core/detector_config.hpp"
 #include "core/object_model.hpp"
@@ -25,10 +27,12 @@ struct LoadedPrior {
 /// Throws InputError with one line for the first fault, or for all of one file's.
 LoadedPrior load_prior(std::filesystem::path const& path, double probability);
 
-/// The detector that the config asks for, of objects that look like `models`; null for `none`.
-/// Throws InputError where it cannot be had: a file that is not right, `sim` for a source that is
-/// no scene, or, for `bpa`, a model that cannot be seen.
-std::unique_ptr<Detector> open_detector(DetectorConfig const& config, std::string const& source_uri,
-                                        ObjectModels const& models);
+/// The detector that the config asks for, of objects that look like `models`; null for `none`. One
+/// in another process is asked as `dds` says; what befalls it is told line by line, from the thread
+/// that asks. Throws InputError where it cannot be had: a file that is not right, `sim` for a
+/// source that is no scene, a model that `bpa` cannot see, DDS that does not start.
+std::unique_ptr<Detector> open_detector(DetectorConfig const& config, DdsConfig const& dds,
+                                        std::string const& source_uri, ObjectModels const& models,
+                                        std::function<void(std::string const&)> tell);
 
 }  // namespace credo

@@ -119,7 +119,8 @@ std::shared_ptr<KnownObjects const> known_objects(ObjectModels models, PipelineC
   known->models = std::move(models);
   known->shapes = shapes_of(known->models);
   known->surfaces = known_surfaces(known->models);
-  known->detector = open_detector(config.detector, source_uri, known->models);
+  known->detector = open_detector(config.detector, config.dds, source_uri, known->models,
+                                  [](std::string const& note) { spdlog::warn(note); });
   return known;
 }
 

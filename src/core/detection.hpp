@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,13 @@ struct Detection {
   double visible_fraction = 1.0;
 };
 
+/// Nobody looked at a frame: a detector that is not there, or does not answer. The frame goes on
+/// without it, and says nothing about known objects: not that they were not found.
+class NobodyLooked : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
 /// The black box that finds known objects (thesis 3.1.1). May be in-process, a file of recorded
 /// detections, or another process.
 class Detector {
@@ -35,7 +43,7 @@ public:
   virtual ~Detector() = default;
 
   /// Any number of detections per request, none where nothing was found. Called by one thread at a
-  /// time, frames in order. A throw costs the frame.
+  /// time, frames in order. A throw costs the frame, NobodyLooked only its detections.
   virtual std::vector<Detection> detect(Frame const& frame,
                                         std::vector<DetectionRequest> const& requests) = 0;
 };

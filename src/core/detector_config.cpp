@@ -76,7 +76,7 @@ FieldList fields(RemoteDetectorConfig& config) {
        &config.timeout_s,
        {0, 3600},
        "s",
-       "a frame that is not answered so long is one without detections"},
+       "a frame that is not answered so long says nothing about known objects"},
   };
 }
 

@@ -70,7 +70,7 @@ FieldList fields(BpaConfig& config);
 
 /// A detector in another process.
 struct RemoteDetectorConfig {
-  /// A frame that is not answered so long is one without detections.
+  /// A frame that is not answered so long says nothing about known objects.
   double timeout_s = 0.5;
 };
 FieldList fields(RemoteDetectorConfig& config);

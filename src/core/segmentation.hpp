@@ -107,7 +107,7 @@ struct Segmentation {
   /// In the belief's order.
   std::vector<ObjectObservation> objects;
   std::vector<RefusedDetection> refused;
-  /// Whether a detector was asked: if not, that an object was not found says nothing.
+  /// Whether a detector looked: if not, that an object was not found says nothing.
   bool objects_looked_for = false;
   std::vector<StuffCluster> stuff;
   /// The same in blocks, for the belief; empty where its rule does not ask.

@@ -12,17 +12,6 @@ namespace {
 
 constexpr std::size_t kMaxSources = 64;
 
-DdsEntity reader_of(Participant const& participant) {
-  Qos const qos = last_state_qos();
-  dds_entity_t const topic =
-      dds_create_topic(participant.handle(), &credo_msg_Belief_desc,
-                       participant.topic("belief").c_str(), nullptr, nullptr);
-  dds_entity_t const subscriber =
-      dds_create_subscriber(participant.handle(), partition_qos(participant).get(), nullptr);
-  return checked(dds_create_reader(subscriber, topic, qos.get(), nullptr),
-                 "reader of " + participant.topic("belief"));
-}
-
 ReceivedBelief received(credo_msg_Belief const& sample, dds_sample_info_t const& info) {
   ReceivedBelief result;
   // Of an instance without data only the key is there.
@@ -39,7 +28,7 @@ ReceivedBelief received(credo_msg_Belief const& sample, dds_sample_info_t const&
 
 BeliefSubscriber::BeliefSubscriber(DdsConfig const& config)
     : participant_(config),
-      reader_(reader_of(participant_)),
+      reader_(reader_of(participant_, "belief", credo_msg_Belief_desc, last_state_qos())),
       waitset_(checked(dds_create_waitset(participant_.handle()), "waitset")) {
   dds_set_status_mask(reader_.handle(), DDS_DATA_AVAILABLE_STATUS);
   dds_waitset_attach(waitset_.handle(), reader_.handle(), 0);

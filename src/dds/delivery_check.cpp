@@ -52,13 +52,7 @@ std::optional<std::chrono::nanoseconds> delivery_time(DdsConfig const& config, s
   Participant const from(config, kWritersDomain);
   Participant const to(config, kReadersDomain);
   DdsEntity const writer = writer_of(from, kTopic, credo_msg_Segmentation_desc, last_state_qos());
-  dds_entity_t const topic = dds_create_topic(to.handle(), &credo_msg_Segmentation_desc,
-                                              to.topic(kTopic).c_str(), nullptr, nullptr);
-  dds_entity_t const subscriber =
-      dds_create_subscriber(to.handle(), partition_qos(to).get(), nullptr);
-  DdsEntity const reader =
-      checked(dds_create_reader(subscriber, topic, last_state_qos().get(), nullptr),
-              "reader of " + to.topic(kTopic));
+  DdsEntity const reader = reader_of(to, kTopic, credo_msg_Segmentation_desc, last_state_qos());
   if (!wait_until(end, [&] { return has_readers(writer); })) {
     return std::nullopt;
   }

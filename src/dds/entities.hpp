@@ -64,6 +64,19 @@ inline DdsEntity writer_of(Participant const& participant, char const* name,
                  "writer of " + topic_name);
 }
 
+/// A reader of <prefix>/<name>. Its topic and subscriber are children of the participant and go
+/// with it.
+inline DdsEntity reader_of(Participant const& participant, char const* name,
+                           dds_topic_descriptor_t const& type, Qos const& qos) {
+  std::string const topic_name = participant.topic(name);
+  dds_entity_t const topic =
+      dds_create_topic(participant.handle(), &type, topic_name.c_str(), nullptr, nullptr);
+  dds_entity_t const subscriber =
+      dds_create_subscriber(participant.handle(), partition_qos(participant).get(), nullptr);
+  return checked(dds_create_reader(subscriber, topic, qos.get(), nullptr),
+                 "reader of " + topic_name);
+}
+
 /// Sends what was written: with write batching, small samples wait to share a packet. Does nothing
 /// without.
 inline void flush(DdsEntity const& writer) {
@@ -76,6 +89,13 @@ bool write_now(DdsEntity const& writer, Sample const& sample) {
   bool const taken = dds_write(writer.handle(), &sample) == DDS_RETCODE_OK;
   flush(writer);
   return taken;
+}
+
+/// Whether anyone writes what the reader reads.
+inline bool has_writers(DdsEntity const& reader) {
+  dds_subscription_matched_status_t status{};
+  return dds_get_subscription_matched_status(reader.handle(), &status) == DDS_RETCODE_OK &&
+         status.current_count > 0;
 }
 
 /// Whether a sample would reach anyone: large ones are not made for nobody.

@@ -15,11 +15,6 @@ credo_msg_DurationQuantiles message_of(DurationQuantiles const& duration) {
   return {duration.count, duration.p50_ms, duration.p95_ms, duration.p99_ms, duration.max_ms};
 }
 
-/// DDS takes texts by a pointer to char, though it does not write to them.
-char* lent_text(std::string const& text) {
-  return const_cast<char*>(text.c_str());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-}
-
 std::vector<credo_msg_FrameCount> counts_of(std::map<std::string, std::uint64_t> const& counts) {
   std::vector<credo_msg_FrameCount> messages;
   messages.reserve(counts.size());

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "belief.h"
@@ -23,14 +25,25 @@ namespace credo {
 [[nodiscard]] ObjectSummary object_in(credo_msg_KnownObject const& message);
 [[nodiscard]] StuffSummary stuff_in(credo_msg_StuffItem const& message);
 
+/// Lends the text: DDS takes it by a pointer to char, though it does not write to it.
+[[nodiscard]] inline char* lent_text(std::string const& text) {
+  return const_cast<char*>(text.c_str());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+}
+
+/// A sequence that lends what lies there: DDS does not write to it, either.
+template <typename Sequence, typename Value>
+[[nodiscard]] Sequence lent_values(Value const* first, std::size_t count) {
+  Sequence sequence{};
+  sequence._length = sequence._maximum = static_cast<std::uint32_t>(count);
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
+  sequence._buffer = const_cast<Value*>(first);
+  return sequence;
+}
+
 /// A sequence that lends the vector's elements.
 template <typename Sequence, typename Element>
 [[nodiscard]] Sequence lent(std::vector<Element>& elements) {
-  Sequence sequence{};
-  sequence._length = sequence._maximum = static_cast<std::uint32_t>(elements.size());
-  sequence._buffer = elements.data();
-  sequence._release = false;
-  return sequence;
+  return lent_values<Sequence>(elements.data(), elements.size());
 }
 
 }  // namespace credo

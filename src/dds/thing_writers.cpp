@@ -9,17 +9,10 @@
 namespace credo {
 namespace {
 
-/// Lends the points as they lie in memory: DDS takes them by a pointer to float, though it does not
-/// write to them.
 dds_sequence_float lent_points(PointList const& points) {
   static_assert(sizeof(PointList::value_type) == 3 * sizeof(float));
-  dds_sequence_float sequence{};
-  if (!points.empty()) {
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
-    sequence._buffer = const_cast<float*>(points.front().data());
-    sequence._length = sequence._maximum = static_cast<std::uint32_t>(3 * points.size());
-  }
-  return sequence;
+  return points.empty() ? dds_sequence_float{}
+                        : lent_values<dds_sequence_float>(points.front().data(), 3 * points.size());
 }
 
 /// Counts the writes that fail.

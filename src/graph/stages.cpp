@@ -34,6 +34,17 @@ std::vector<PoseDistribution> likeliest_poses(Segmentation const& segmentation,
   return poses_world;
 }
 
+/// None where nobody looked.
+std::optional<std::vector<Detection>> detections_in(Frame const& frame,
+                                                    std::vector<DetectionRequest> const& requests,
+                                                    Detector& detector) {
+  try {
+    return detector.detect(frame, requests);
+  } catch (NobodyLooked const&) {
+    return std::nullopt;
+  }
+}
+
 /// Method section 1, steps 2 and 3.
 Segmentation find_objects(Frame const& frame, NormalMap const& normals, Segmentation segmentation,
                           BeliefState const& seen, KnownObjects const& known,
@@ -41,10 +52,13 @@ Segmentation find_objects(Frame const& frame, NormalMap const& normals, Segmenta
   if (known.detector == nullptr || seen.objects.empty()) {
     return segmentation;
   }
-  std::vector<Detection> const detections =
-      known.detector->detect(frame, detection_requests(seen, segmentation.T_world_camera));
+  std::optional<std::vector<Detection>> const detections =
+      detections_in(frame, detection_requests(seen, segmentation.T_world_camera), *known.detector);
+  if (!detections.has_value()) {
+    return segmentation;
+  }
   segmentation =
-      match_detections(std::move(segmentation), seen, detections, known.models, config.detection);
+      match_detections(std::move(segmentation), seen, *detections, known.models, config.detection);
   if (!config.region_growing.from_belief) {
     return grow_objects(frame, normals, std::move(segmentation), known.shapes,
                         config.region_growing);

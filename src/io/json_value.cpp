@@ -1,15 +1,14 @@
 #include "io/json_value.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/told_pose.hpp"
 
 namespace credo {
 namespace {
@@ -128,11 +127,12 @@ std::string JsonValue::text() const {
 }
 
 Eigen::Vector3d JsonValue::position() const {
-  Eigen::Vector3d position(numbers<3>().data());
-  if (position.cwiseAbs().maxCoeff() > 1e4) {
-    refuse("must be within 10000 m");
+  auto const xyz = numbers<3>();
+  try {
+    return told_position(Eigen::Vector3d(xyz.data()));
+  } catch (std::invalid_argument const& error) {
+    refuse(error.what());
   }
-  return position;
 }
 
 Eigen::Matrix4d JsonValue::matrix() const {
@@ -155,14 +155,11 @@ FrameIndex JsonValue::frame() const {
 
 Eigen::Quaterniond JsonValue::orientation() const {
   auto const xyzw = numbers<4>();
-  Eigen::Quaterniond orientation(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
-  double const length = orientation.norm();
-  if (!(std::abs(length - 1.0) <= 1e-2)) {
-    std::ostringstream text;
-    text << "must be of length 1, has " << length;
-    refuse(text.str());
+  try {
+    return told_orientation({xyzw[3], xyzw[0], xyzw[1], xyzw[2]});
+  } catch (std::invalid_argument const& error) {
+    refuse(error.what());
   }
-  return orientation;
 }
 
 void JsonValue::for_each(std::function<void(JsonValue const&)> const& each) const {

@@ -1,34 +1,23 @@
 #include "io/recorded_detections.hpp"
 
-#include <Eigen/Cholesky>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "core/told_pose.hpp"
 #include "io/json_value.hpp"
 
 namespace credo {
 namespace {
 
-constexpr double kMinDeviation = 1e-6;
-constexpr double kMaxDeviation = 1e3;
-
 Matrix6d covariance_of(JsonValue const& value) {
   auto const numbers = value.numbers<36>();
-  Matrix6d const read =
-      Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor> const>(numbers.data());
-  Matrix6d covariance = 0.5 * (read + read.transpose());
-  double const off = (read - covariance).cwiseAbs().maxCoeff();
-  if (!(off <= 1e-6 * read.cwiseAbs().maxCoeff()) ||
-      covariance.llt().info() != Eigen::ComputationInfo::Success) {
-    value.refuse("must be symmetric and positive definite");
+  try {
+    return told_covariance(
+        Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor> const>(numbers.data()));
+  } catch (std::invalid_argument const& error) {
+    value.refuse(error.what());
   }
-  auto const variances = covariance.diagonal().array();
-  // A little less than the square, which may be rounded.
-  if (variances.minCoeff() < 0.999 * kMinDeviation * kMinDeviation ||
-      variances.maxCoeff() > kMaxDeviation * kMaxDeviation) {
-    value.refuse("must have standard deviations in [1e-6, 1000] m and rad");
-  }
-  return covariance;
 }
 
 Detection detection_of(JsonValue const& value) {

@@ -7,17 +7,15 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "end_to_end/contract.hpp"
+#include "end_to_end/detection_recording.hpp"
 #include "end_to_end/known_scene.hpp"
 #include "end_to_end/program.hpp"
 #include "io/image.hpp"
-#include "sim/camera_path.hpp"
-#include "sim/scene_time.hpp"
 #include "support/paths.hpp"
 #include "support/recordings.hpp"
 
@@ -78,51 +76,6 @@ double iou(Grid<std::uint16_t> const& labels, int first, int last, Grid<std::int
   return static_cast<double>(both) / static_cast<double>(either);
 }
 
-/// A line of recorded detections: each object of the scene where it truly is, moved.
-class Recording {
-public:
-  Recording(fs::path const& path, Scene const& scene) : file_(path), scene_(scene) {}
-
-  Recording& frame(std::int64_t index) {
-    finish();
-    frame_ = {{"frame", index}, {"detections", json::array()}};
-    index_ = index;
-    return *this;
-  }
-  Recording& sees(std::string const& thing, Eigen::Vector3d const& off_world_m = {0, 0, 0}) {
-    Se3 const truth = true_pose(scene_, index_, thing);
-    Se3 const T_world_thing(truth.rotation(), truth.translation() + off_world_m);
-    Se3 const pose =
-        camera_pose(scene_.camera.path, scene_time_s(scene_, FrameIndex{index_})).inverse() *
-        T_world_thing;
-    Eigen::Quaterniond const& q = pose.rotation();
-    Eigen::Vector3d const& p = pose.translation();
-    json covariance = json::array();
-    for (int i = 0; i < 36; ++i) {
-      covariance.push_back(i % 7 == 0 ? 1e-4 : 0.0);
-    }
-    frame_["detections"].push_back(
-        {{"type", scene_.things[static_cast<std::size_t>(position_of(scene_, thing))].type},
-         {"position", {p.x(), p.y(), p.z()}},
-         {"orientation_xyzw", {q.x(), q.y(), q.z(), q.w()}},
-         {"covariance", covariance},
-         {"score", 1.0}});
-    return *this;
-  }
-  void finish() {
-    if (!frame_.is_null()) {
-      file_ << frame_ << std::endl;
-      frame_ = nullptr;
-    }
-  }
-
-private:
-  std::ofstream file_;
-  Scene scene_;
-  json frame_;
-  std::int64_t index_ = 0;
-};
-
 std::vector<std::string> recorded(fs::path const& file) {
   return {"--set", "detector.kind=recorded", "--set", "detector.file=" + file.string()};
 }
@@ -159,7 +112,7 @@ TEST(KnownObjects, ADetectionOutOfTheGateChangesNothingAndIsTold) {
   TempFolder const folder;
   Scene const scene = project_scene("box-on-table");
   for (bool const strays : {false, true}) {
-    Recording recording(folder / (strays ? "strays.jsonl" : "misses.jsonl"), scene);
+    DetectionRecording recording(folder / (strays ? "strays.jsonl" : "misses.jsonl"), scene);
     for (int frame = 0; frame < kFrames; ++frame) {
       recording.frame(frame).sees("table");
       if (frame != 3 && frame != 5) {
@@ -197,7 +150,7 @@ TEST(KnownObjects, AMistypedTypeIsToldAndNotLost) {
   TempFolder const folder;
   Scene scene = project_scene("box-on-table");
   scene.things[static_cast<std::size_t>(position_of(scene, "table"))].type = "tabel";
-  Recording recording(folder / "typo.jsonl", scene);
+  DetectionRecording recording(folder / "typo.jsonl", scene);
   recording.frame(0).sees("table").sees("box").finish();
   Ended const ended = credo(with(box_on_table(folder / "out", project_prior("box-on-table")),
                                  with(recorded(folder / "typo.jsonl"), {"--frames", "1"})));
@@ -211,7 +164,7 @@ TEST(KnownObjects, AMistypedTypeIsToldAndNotLost) {
 std::vector<json> beliefs_with_a_low_table(TempFolder const& folder,
                                            std::vector<std::string> const& more) {
   Scene const scene = project_scene("box-on-table");
-  Recording recording(folder / "low.jsonl", scene);
+  DetectionRecording recording(folder / "low.jsonl", scene);
   for (int frame = 0; frame < kFrames; ++frame) {
     recording.frame(frame).sees("table", {0, 0, frame == 0 ? -0.035 : 0.0}).sees("box");
   }

@@ -25,6 +25,9 @@ public:
   std::vector<Detection> detect(Frame const&,
                                 std::vector<DetectionRequest> const& requests) override {
     asked_.insert(asked_.end(), requests.begin(), requests.end());
+    if (is_away) {
+      throw NobodyLooked("nobody is there");
+    }
     if (std::isnan(aside_m)) {
       return {};
     }
@@ -34,6 +37,7 @@ public:
   }
 
   double aside_m = kNaN;
+  bool is_away = false;
 
 private:
   std::vector<DetectionRequest>& asked_;
@@ -193,6 +197,32 @@ TEST_F(StagesTest, AFrameIsSegmentedWithTheCorrectionThatIsBelieved) {
   EXPECT_TRUE(
       told.T_world_camera.matrix().isApprox((level * frame_of(1).T_source_camera).matrix(), 1e-12));
   EXPECT_TRUE(told.T_world_told.matrix().isIdentity(1e-12));
+}
+
+// That is not the same as that it looked and found nothing, which counts against what is in view.
+TEST_F(StagesTest, WhereNobodyLookedNothingIsLearntOfObjects) {
+  config_.capture.independent_frames = false;
+  config_.fusion.visibility = false;
+  // Each look is news, and the box in the middle of the picture.
+  Prior prior = prior_in(PriorFrame::kCamera);
+  prior.objects[0].pose_world.mean = Se3(Eigen::Quaterniond::Identity(), {0, 0, 1.5});
+  double const log_odds = prior.objects[0].log_odds;
+  Stages const stages = make_stages(config_, {Se3(), true, ""}, prior, known_);
+  Frame const frame = frame_of(0);
+  BeliefState const before = prior_belief(prior, frame.T_source_camera);
+
+  detector_->is_away = true;
+  Segmentation const blind = segment(stages, frame, before);
+  EXPECT_THAT(asked_, SizeIs(1));
+  EXPECT_FALSE(blind.objects_looked_for);
+  BeliefState const after = stages.fusion(before, blind);
+  EXPECT_EQ(after.objects.at(0).log_odds, log_odds);
+  EXPECT_EQ(after.objects.at(0).evidence, Evidence::kNotSeen);
+
+  detector_->is_away = false;
+  Segmentation const looked = segment(stages, frame, before);
+  EXPECT_TRUE(looked.objects_looked_for);
+  EXPECT_LT(stages.fusion(before, looked).objects.at(0).log_odds, log_odds);
 }
 
 struct Asked {

@@ -124,7 +124,8 @@ TEST(DetectionLog, OneFrameThatWasLookedAtIsEnoughToSumUp) {
   Segmentation blind = frame_of(1, {});
   blind.objects_looked_for = false;
   (void)log.told(blind);
-  EXPECT_EQ(log.summary(), "objects: 0 detections taken, 0 refused\n");
+  EXPECT_EQ(log.summary(),
+            "objects: 0 detections taken, 0 refused; nobody looked in 1 of 2 frames\n");
 }
 
 }  // namespace

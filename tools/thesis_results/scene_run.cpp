@@ -1,5 +1,7 @@
 #include "scene_run.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -91,7 +93,8 @@ SceneRun run_recipe(Recipe const& recipe) {
   known->models = std::move(prior.models);
   known->shapes = shapes_of(known->models);
   known->surfaces = known_surfaces(known->models);
-  known->detector = open_detector(config.detector, "sim:" + recipe.scene, known->models);
+  known->detector = open_detector(config.detector, config.dds, "sim:" + recipe.scene, known->models,
+                                  [](std::string const& note) { spdlog::warn(note); });
   ReadAhead source(std::make_unique<SimSource>(scene, config.pose, config.sim));
   WorldLevel const level = find_level_ahead(source, config.pose);
   auto const first = std::make_shared<BeliefState const>(prior_belief(prior.prior, Se3()));
