@@ -1,5 +1,8 @@
 #include "methods.hpp"
 
+#include "baselines/ghv_detector.hpp"
+#include "baselines/icp_detector.hpp"
+#include "baselines/ppf_detector.hpp"
 #include "core/detector_config.hpp"
 #include "detector/bpa_detector.hpp"
 #include "truth_detector.hpp"
@@ -28,6 +31,9 @@ std::vector<Method> all_methods(std::vector<TableView> const& views) {
          return std::make_unique<BpaDetector>(named, config);
        }},
       {"truth", [&views](auto const&) { return std::make_unique<TruthDetector>(views); }},
+      {"icp", made<IcpDetector>},
+      {"ghv", made<GhvDetector>},
+      {"ppf", made<PpfDetector>},
   };
 }
 
