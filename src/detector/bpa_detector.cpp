@@ -11,7 +11,9 @@
 namespace credo {
 namespace {
 
-constexpr std::size_t kMaxCandidates = 5;
+constexpr std::size_t kMaxCandidates = 8;
+/// Around an expected pose there is little to choose from.
+constexpr std::size_t kMaxTracked = 2;
 /// How well a pose found a few frames ago is known now: by what the camera's source strays.
 constexpr double kFollowed_m = 0.010;
 constexpr double kFollowed_rad = 0.03;
@@ -141,7 +143,7 @@ std::vector<Candidate> BpaDetector::candidates_of(DetectionRequest const& reques
     return {};
   }
   return search_near(*model, scene, request.expected_camera,
-                     seed_of(config_, frame, request.object_id), kMaxCandidates);
+                     seed_of(config_, frame, request.object_id), kMaxTracked);
 }
 
 bool BpaDetector::is_due(Frame const& frame) const {

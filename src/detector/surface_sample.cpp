@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <random>
 #include <unordered_map>
 
-#include "detector/random_draws.hpp"
+#include "geometry/random_draws.hpp"
 
 namespace credo {
 namespace {
@@ -127,16 +128,16 @@ SurfaceSample sample_surface(TriangleMesh const& mesh, float spacing_m, std::uin
   double const spacing_squared = static_cast<double>(spacing_m) * static_cast<double>(spacing_m);
   auto const darts =
       static_cast<std::size_t>(std::ceil(kDartsPerPoint * doubled_area / 2.0 / spacing_squared));
-  RandomDraws random(seed);
+  std::mt19937_64 random(seed);
   Sieve sieve(spacing_m);
   for (std::size_t i = 0; i < darts && doubled_area > 0.0; ++i) {
-    double const place = random.fine_fraction() * doubled_area;
+    double const place = draw_uniform(random) * doubled_area;
     auto const after = std::upper_bound(before.begin(), before.end(), place);
     auto const triangle =
         std::min(static_cast<std::size_t>(after - before.begin()) - 1, mesh.triangles.size() - 1);
     Corners const corners = corners_of(mesh, triangle);
-    float const root = std::sqrt(random.fraction());
-    float const share = random.fraction();
+    float const root = std::sqrt(static_cast<float>(draw_uniform(random)));
+    auto const share = static_cast<float>(draw_uniform(random));
     Eigen::Vector3f const point =
         (1.0F - root) * corners.a + root * (1.0F - share) * corners.b + root * share * corners.c;
     Eigen::Vector3f const normal = (corners.b - corners.a).cross(corners.c - corners.a);

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <numbers>
+#include <random>
 
-#include "detector/polishing.hpp"
 #include "detector/pose_distance.hpp"
 #include "detector/pose_refinement.hpp"
 #include "detector/pose_score.hpp"
-#include "detector/random_draws.hpp"
+#include "geometry/random_draws.hpp"
 
 namespace credo {
 namespace {
@@ -55,22 +54,16 @@ double widest_m(SearchModel const& model, PoseDistribution const& expected) {
   return std::max(width.position_m, width.rotation_rad * 0.5 * static_cast<double>(model.radius_m));
 }
 
-/// Standard normal (Box and Muller 1958).
-double normal_draw(RandomDraws& random) {
-  double const radius = std::sqrt(-2.0 * std::log(1.0 - random.fine_fraction()));
-  return radius * std::cos(2.0 * std::numbers::pi * random.fine_fraction());
-}
-
 std::vector<CameraPose> draws(PoseDistribution const& expected, std::uint64_t seed,
                               std::size_t count) {
   Eigen::SelfAdjointEigenSolver<Matrix6d> const solver(expected.covariance);
   Vector6d const deviations = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  RandomDraws random(seed);
+  std::mt19937_64 random(seed);
   std::vector<CameraPose> poses = {camera_pose(expected.mean)};
   while (poses.size() < count) {
     Vector6d error;
     for (double& value : error) {
-      value = normal_draw(random);
+      value = draw_normal(random);
     }
     error = solver.eigenvectors() * deviations.cwiseProduct(error);
     poses.push_back(camera_pose(boxplus(expected.mean, error)));
@@ -125,7 +118,7 @@ std::vector<Candidate> search_near(SearchModel const& model, SearchScene const& 
   keep_best(poses, distance, 0.05F * model.diameter_m, max_candidates);
   std::vector<Candidate> candidates;
   for (Scored const& pose : poses) {
-    candidates.push_back(polished(model, scene, pose.pose));
+    candidates.push_back({pose.pose, verified(model, scene, pose.pose, {})});
   }
   std::ranges::stable_sort(candidates, std::greater{}, [](Candidate const& candidate) {
     return candidate.verification.log_odds;

@@ -154,9 +154,9 @@ float log_odds_of(Verification const& v) {
   }
   float const seen = in + static_cast<float>(v.background_px + v.seen_through_px);
   float const through = static_cast<float>(v.seen_through_px) / seen;
-  return -8.8F + 5.9F * v.explained - 8.3F * through - 4.4F * v.outline_open +
-         0.53F * std::log(in / 500.0F) + 0.86F * std::min(1.0F, 2.0F * v.visible_fraction) +
-         5.2F * v.edges_found - 1.5F * v.block_misfit;
+  return -13.4F + 4.5F * v.explained - 7.5F * through - 3.9F * v.outline_open +
+         0.94F * std::log(in / 500.0F) + 1.9F * std::min(1.0F, 2.0F * v.visible_fraction) +
+         7.4F * v.edges_found - 2.2F * v.block_misfit;
 }
 
 }  // namespace
