@@ -51,7 +51,7 @@ ObjectVerdict verdict_at(SearchModel const& model, SearchScene const& scene, Se3
 }
 
 Detection detection_of(SearchModel const& model, SearchScene const& scene,
-                       Candidate const& candidate, std::string const& type) {
+                       PoseCandidate const& candidate, std::string const& type) {
   Detection detection;
   detection.type = type;
   detection.pose_camera = with_covariance(model, scene, candidate.pose);
@@ -61,7 +61,7 @@ Detection detection_of(SearchModel const& model, SearchScene const& scene,
 }
 
 ObjectAnswer answer_of(DetectionRequest const& request, SearchModel const* model,
-                       std::optional<Candidate> const& found, SearchScene const& scene) {
+                       std::optional<PoseCandidate> const& found, SearchScene const& scene) {
   if (model == nullptr) {
     return {};
   }
@@ -74,7 +74,7 @@ ObjectAnswer answer_of(DetectionRequest const& request, SearchModel const* model
 /// What has a model and no pose.
 std::vector<DetectionRequest> missing(std::vector<DetectionRequest> const& requests,
                                       std::vector<ObjectCandidates> const& objects,
-                                      std::vector<std::optional<Candidate>> const& found) {
+                                      std::vector<std::optional<PoseCandidate>> const& found) {
   std::vector<DetectionRequest> missing;
   for (std::size_t i = 0; i < requests.size(); ++i) {
     if (objects[i].model != nullptr && !found[i]) {
@@ -111,7 +111,7 @@ std::vector<ObjectAnswer> BpaDetector::answers(Frame const& frame,
   if (is_due(frame)) {
     collect(frame, *scene, requests, objects);
   }
-  std::vector<std::optional<Candidate>> found = choose_jointly(objects, *scene, least);
+  std::vector<std::optional<PoseCandidate>> found = choose_jointly(objects, *scene, least);
   start_job(frame, scene, missing(requests, objects, found));
   if (config_.global_lag_frames == 0 && is_due(frame)) {
     collect(frame, *scene, requests, objects);
@@ -129,9 +129,9 @@ SearchModel const* BpaDetector::model_of(DetectionRequest const& request) const 
   return found != models_.end() ? &found->second->model : nullptr;
 }
 
-std::vector<Candidate> BpaDetector::candidates_of(DetectionRequest const& request,
-                                                  SearchScene const& scene,
-                                                  Frame const& frame) const {
+std::vector<PoseCandidate> BpaDetector::candidates_of(DetectionRequest const& request,
+                                                      SearchScene const& scene,
+                                                      Frame const& frame) const {
   SearchModel const* model = model_of(request);
   if (model == nullptr) {
     return {};
@@ -167,8 +167,8 @@ void BpaDetector::collect(Frame const& frame, SearchScene const& scene,
     if (of_object == found.end()) {
       continue;
     }
-    for (Candidate const& candidate : of_object->second) {
-      for (Candidate& now :
+    for (PoseCandidate const& candidate : of_object->second) {
+      for (PoseCandidate& now :
            search_near(*objects[i].model, scene, followed(candidate.pose, T_now_then),
                        seed_of(config_, frame, requests[i].object_id), 1)) {
         objects[i].candidates.push_back(std::move(now));
@@ -184,7 +184,7 @@ void BpaDetector::start_job(Frame const& frame, ScenePtr const& scene,
     return;
   }
   auto search = [scene, missing, models = models_] {
-    std::map<std::string, std::vector<Candidate>> found;
+    std::map<std::string, std::vector<PoseCandidate>> found;
     for (DetectionRequest const& request : missing) {
       PreparedModel const& model = *models.at(request.type);
       found[request.object_id] =

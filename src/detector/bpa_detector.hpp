@@ -65,13 +65,13 @@ private:
     FrameIndex frame{0};
     Se3 T_source_camera;
     /// By object id.
-    std::future<std::map<std::string, std::vector<Candidate>>> found;
+    std::future<std::map<std::string, std::vector<PoseCandidate>>> found;
   };
 
   [[nodiscard]] SearchModel const* model_of(DetectionRequest const& request) const;
-  [[nodiscard]] std::vector<Candidate> candidates_of(DetectionRequest const& request,
-                                                     SearchScene const& scene,
-                                                     Frame const& frame) const;
+  [[nodiscard]] std::vector<PoseCandidate> candidates_of(DetectionRequest const& request,
+                                                         SearchScene const& scene,
+                                                         Frame const& frame) const;
   [[nodiscard]] bool is_due(Frame const& frame) const;
   /// Adds what the job has found, followed to this frame.
   void collect(Frame const& frame, SearchScene const& scene,

@@ -84,8 +84,8 @@ void refine(Scored& pose, SearchModel const& model, SearchScene const& scene,
 
 }  // namespace
 
-std::vector<Candidate> search_everywhere(SearchModel const& model, PairTable const& pairs,
-                                         SearchScene const& scene, std::size_t max_candidates) {
+std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable const& pairs,
+                                             SearchScene const& scene, std::size_t max_candidates) {
   PoseScore const score(model, scene);
   PoseDistance const distance(model);
   std::vector<Scored> poses;
@@ -104,11 +104,11 @@ std::vector<Candidate> search_everywhere(SearchModel const& model, PairTable con
   }
   poses = survivors(std::move(poses), distance, kCandidatesApart_diameters * model.diameter_m,
                     kFunnel.back().survivors);
-  std::vector<Candidate> candidates;
+  std::vector<PoseCandidate> candidates;
   for (Scored const& pose : poses) {
     candidates.push_back(polished(model, scene, pose.pose));
   }
-  std::ranges::stable_sort(candidates, std::greater{}, [](Candidate const& candidate) {
+  std::ranges::stable_sort(candidates, std::greater{}, [](PoseCandidate const& candidate) {
     return candidate.verification.log_odds;
   });
   candidates.resize(std::min(candidates.size(), max_candidates));

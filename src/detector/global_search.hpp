@@ -11,9 +11,9 @@ namespace credo {
 
 /// Where a model may be in a scene, likeliest first; at most `max_candidates`, none of which are
 /// nearly the same (with the model's symmetry). Wherever the camera is: nothing is expected.
-[[nodiscard]] std::vector<Candidate> search_everywhere(SearchModel const& model,
-                                                       PairTable const& pairs,
-                                                       SearchScene const& scene,
-                                                       std::size_t max_candidates);
+[[nodiscard]] std::vector<PoseCandidate> search_everywhere(SearchModel const& model,
+                                                           PairTable const& pairs,
+                                                           SearchScene const& scene,
+                                                           std::size_t max_candidates);
 
 }  // namespace credo

@@ -30,9 +30,8 @@ double log_odds_of(float probability, float min_probability) {
 
 }  // namespace
 
-std::vector<std::optional<Candidate>> choose_jointly(std::vector<ObjectCandidates> const& objects,
-                                                     SearchScene const& scene,
-                                                     float min_probability) {
+std::vector<std::optional<PoseCandidate>> choose_jointly(
+    std::vector<ObjectCandidates> const& objects, SearchScene const& scene, float min_probability) {
   std::vector<std::vector<Lead>> const leads = leads_of(objects, scene.pixels.width());
   std::vector<Explanation> explanations;
   std::vector<Place> places;
@@ -50,11 +49,11 @@ std::vector<std::optional<Candidate>> choose_jointly(std::vector<ObjectCandidate
   std::vector<std::size_t> chosen = best_choice(explanations);
   std::ranges::stable_sort(chosen, std::greater{},
                            [&](std::size_t i) { return explanations[i].log_odds; });
-  std::vector<std::optional<Candidate>> found(objects.size());
+  std::vector<std::optional<PoseCandidate>> found(objects.size());
   ClaimedPixels claimed(scene.pixels.width(), scene.pixels.height(), 0);
   for (std::size_t const i : chosen) {
     auto const& [object, position] = places[i];
-    Candidate candidate = objects[object].candidates[position];
+    PoseCandidate candidate = objects[object].candidates[position];
     float const alone = candidate.verification.log_odds;
     candidate.verification = verified(*objects[object].model, scene, candidate.pose, claimed);
     candidate.verification.log_odds = std::min(alone, candidate.verification.log_odds);

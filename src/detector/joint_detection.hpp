@@ -14,7 +14,7 @@ namespace credo {
 /// is depends on its rivals for the same pixels (rivalry.hpp). Then each is held against the scene
 /// again, with what the better ones explain standing before it, so that its probability never rises
 /// by the others. Those below `min_probability`, before or after, are none.
-[[nodiscard]] std::vector<std::optional<Candidate>> choose_jointly(
+[[nodiscard]] std::vector<std::optional<PoseCandidate>> choose_jointly(
     std::vector<ObjectCandidates> const& objects, SearchScene const& scene, float min_probability);
 
 }  // namespace credo

@@ -13,13 +13,13 @@ constexpr float kLeastLogOdds = -8.0F;
 
 }  // namespace
 
-Candidate polished(SearchModel const& model, SearchScene const& scene, CameraPose const& pose) {
-  Candidate rough{pose, verified(model, scene, pose, {})};
+PoseCandidate polished(SearchModel const& model, SearchScene const& scene, CameraPose const& pose) {
+  PoseCandidate rough{pose, verified(model, scene, pose, {})};
   if (rough.verification.log_odds < kLeastLogOdds) {
     return rough;
   }
   CameraPose const moved = refined(model, scene, pose, kRefinement);
-  Candidate fine{moved, verified(model, scene, moved, {})};
+  PoseCandidate fine{moved, verified(model, scene, moved, {})};
   return fine.verification.log_odds > rough.verification.log_odds ? std::move(fine)
                                                                   : std::move(rough);
 }

@@ -5,7 +5,7 @@
 namespace credo {
 
 /// A pose that was refined and held against the scene.
-struct Candidate {
+struct PoseCandidate {
   CameraPose pose;
   Verification verification;
   /// That it is right; set once its rivals are known.
@@ -13,7 +13,7 @@ struct Candidate {
 };
 
 /// A pose refined by all that its view shows, where that is likelier, and as it was where not.
-[[nodiscard]] Candidate polished(SearchModel const& model, SearchScene const& scene,
-                                 CameraPose const& pose);
+[[nodiscard]] PoseCandidate polished(SearchModel const& model, SearchScene const& scene,
+                                     CameraPose const& pose);
 
 }  // namespace credo

@@ -10,7 +10,7 @@ namespace credo {
 struct ObjectCandidates {
   /// Never null.
   SearchModel const* model = nullptr;
-  std::vector<Candidate> candidates;
+  std::vector<PoseCandidate> candidates;
 };
 
 /// By how much a candidate's log-odds are above those of the best other one that explains mostly

@@ -96,9 +96,9 @@ bool can_track(SearchModel const& model, PoseDistribution const& expected_camera
   return widest_m(model, expected_camera) <= kEfforts.back().deviation_m;
 }
 
-std::vector<Candidate> search_near(SearchModel const& model, SearchScene const& scene,
-                                   PoseDistribution const& expected_camera, std::uint64_t seed,
-                                   std::size_t max_candidates) {
+std::vector<PoseCandidate> search_near(SearchModel const& model, SearchScene const& scene,
+                                       PoseDistribution const& expected_camera, std::uint64_t seed,
+                                       std::size_t max_candidates) {
   double const widest = widest_m(model, expected_camera);
   auto const fitting = std::ranges::find_if(
       kEfforts, [&](Effort const& effort) { return widest <= effort.deviation_m; });
@@ -116,11 +116,11 @@ std::vector<Candidate> search_near(SearchModel const& model, SearchScene const& 
     pose.score = score(pose.pose, kFinePoints);
   }
   keep_best(poses, distance, 0.05F * model.diameter_m, max_candidates);
-  std::vector<Candidate> candidates;
+  std::vector<PoseCandidate> candidates;
   for (Scored const& pose : poses) {
     candidates.push_back({pose.pose, verified(model, scene, pose.pose, {})});
   }
-  std::ranges::stable_sort(candidates, std::greater{}, [](Candidate const& candidate) {
+  std::ranges::stable_sort(candidates, std::greater{}, [](PoseCandidate const& candidate) {
     return candidate.verification.log_odds;
   });
   return candidates;
