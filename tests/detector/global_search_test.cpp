@@ -1,0 +1,148 @@
+#include "detector/global_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "detector/detection_picture.hpp"
+#include "detector/pose_distance.hpp"
+#include "detector/scene_of_frame.hpp"
+#include "detector/views.hpp"
+
+namespace credo::test {
+namespace {
+
+PairTable const& bracket_pairs() {
+  static PairTable const pairs(prepared_bracket());
+  return pairs;
+}
+
+class BracketAnywhere : public ::testing::TestWithParam<double> {};
+
+TEST_P(BracketAnywhere, IsFoundFirst) {
+  SearchModel const& model = prepared_bracket();
+  BracketView const view = bracket_on_desk(GetParam(), {SensorModel::kGaussian});
+  std::vector<PoseCandidate> const found = search_everywhere(model, bracket_pairs(), view.scene, 5);
+  ASSERT_FALSE(found.empty());
+  EXPECT_LE(found.size(), 5U);
+  EXPECT_LT(mean_distance_m(model, found[0].pose, view.truth), 0.1 * model.diameter_m);
+  EXPECT_GT(found[0].verification.probability, 0.5F);
+  PoseDistance const distance(model);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GE(found[j].verification.probability, found[i].verification.probability);
+      EXPECT_GT(distance(found[i].pose, found[j].pose), 0.03F * model.diameter_m);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Yaws, BracketAnywhere, ::testing::Values(2.2, 4.4));
+
+TEST(GlobalSearch, WhatIsNotThereIsUnlikely) {
+  FramePtr const bare = frame_of(desk_and_floor(), before_desk());
+  for (PoseCandidate const& candidate :
+       search_everywhere(prepared_bracket(), bracket_pairs(), scene_of(*bare), 5)) {
+    EXPECT_LT(candidate.verification.probability, 0.5F);
+  }
+  Frame blind;
+  blind.cloud_camera = cloud_from_depth(Grid<float>(640, 480, 0.0F), blind.intrinsics);
+  EXPECT_TRUE(search_everywhere(prepared_bracket(), bracket_pairs(), scene_of(blind), 5).empty());
+}
+
+TEST(GlobalSearch, ACrateAndACanAreFound) {
+  std::vector<Placed> things = desk_and_floor();
+  Eigen::Vector3d const size_m(0.22, 0.14, 0.10);
+  Se3 const T_world_crate = placed_at({-0.2, 0, 0}, 0.6);
+  Se3 const T_world_can = placed_at({0.15, 0.05, 0}, 0.0);
+  things.push_back({crate(size_m), T_world_crate});
+  things.push_back({can(0.04, 0.13), T_world_can});
+  SearchScene const scene = scene_of(*frame_of(things, before_desk()));
+  auto const expect_found = [&](ObjectModel const& object, Se3 const& T_world_object) {
+    SearchModel const model = prepare_model(object);
+    std::vector<PoseCandidate> const found = search_everywhere(model, PairTable(model), scene, 1);
+    ASSERT_EQ(found.size(), 1U);
+    CameraPose const truth = camera_pose(before_desk().inverse() * T_world_object);
+    // Upside down is the same where the model does not say so: the centre tells.
+    EXPECT_LT((found[0].pose * model.centre_model - truth * model.centre_model).norm(),
+              0.1F * model.diameter_m)
+        << object.name;
+    EXPECT_GT(found[0].verification.probability, 0.5F) << object.name;
+  };
+  expect_found(crate(size_m), T_world_crate);
+  expect_found(can(0.04, 0.13), T_world_can);
+}
+
+class Picture : public ::testing::Test {
+protected:
+  static Detection detection(Se3 const& pose, std::string const& type) {
+    Detection detection;
+    detection.type = type;
+    detection.pose_camera.mean = pose;
+    return detection;
+  }
+  static std::vector<Pixel> changed(Grid<Rgb> const& a, Grid<Rgb> const& b) {
+    std::vector<Pixel> pixels;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      if (a[i] != b[i]) {
+        pixels.push_back(a.pixel(i));
+      }
+    }
+    return pixels;
+  }
+
+  BracketView view_ = bracket_on_desk(0.3);
+  PreparedModels models_ = {{"bracket", std::make_shared<PreparedModel const>(
+                                            PreparedModel{prepared_bracket(), PairTable()})}};
+};
+
+TEST_F(Picture, ShowsAModelWhereItIs) {
+  Grid<Rgb> const without = draw_detections(*view_.frame, models_, {});
+  Grid<Rgb> const with =
+      draw_detections(*view_.frame, models_, {detection(view_.T_camera_model, "bracket")});
+  ASSERT_EQ(without.width(), 640);
+  DepthPatch const patch =
+      prepared_bracket().rendered(view_.truth, view_.frame->intrinsics, {640, 480});
+  std::vector<Pixel> const pixels = changed(without, with);
+  EXPECT_GT(pixels.size(), 1000U);
+  for (Pixel const& p : pixels) {
+    Pixel const in_patch{p.u - patch.corner.u, p.v - patch.corner.v};
+    ASSERT_TRUE(patch.depth_m.contains(in_patch));
+    EXPECT_LT(patch.depth_m[in_patch], kNoSurface_m);
+  }
+}
+
+TEST_F(Picture, WhatIsHiddenHasItsSilhouetteOnly) {
+  Se3 const under(view_.T_camera_model.rotation(), 1.3 * view_.T_camera_model.translation());
+  Grid<Rgb> const without = draw_detections(*view_.frame, models_, {});
+  auto const hidden =
+      changed(without, draw_detections(*view_.frame, models_, {detection(under, "bracket")}));
+  DepthPatch const patch =
+      prepared_bracket().rendered(camera_pose(under), view_.frame->intrinsics, {640, 480});
+  auto const shown = static_cast<std::size_t>(
+      std::ranges::count_if(patch.depth_m, [](float depth_m) { return depth_m < kNoSurface_m; }));
+  EXPECT_GT(hidden.size(), 50U);
+  EXPECT_LT(hidden.size(), shown / 2);
+}
+
+TEST_F(Picture, TypesWithoutAModelAreLeftOut) {
+  Grid<Rgb> const without = draw_detections(*view_.frame, models_, {});
+  EXPECT_EQ(draw_detections(*view_.frame, models_, {detection(view_.T_camera_model, "ghost")}),
+            without);
+}
+
+TEST_F(Picture, IsInColourWhereThatIsRegistered) {
+  Frame frame = *view_.frame;
+  frame.color = Grid<Rgb>(640, 480, Rgb{10, 200, 30});
+  EXPECT_NE(draw_detections(frame, models_, {}), frame.color);
+  frame.color_registered = true;
+  EXPECT_EQ(draw_detections(frame, models_, {}), frame.color);
+}
+
+TEST_F(Picture, OfNothingIsEmpty) {
+  EXPECT_TRUE(
+      draw_detections(Frame{}, models_, {detection(view_.T_camera_model, "bracket")}).empty());
+}
+
+}  // namespace
+}  // namespace credo::test

@@ -1,0 +1,317 @@
+#include "detector/verification.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "detector/pose_score.hpp"
+#include "detector/scene_of_frame.hpp"
+#include "detector/views.hpp"
+
+namespace credo::test {
+namespace {
+
+using Eigen::Vector3f;
+
+/// Poses that are far enough off to be wrong, near enough to fit in part.
+std::vector<CameraPose> wrong_poses(CameraPose const& truth, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<float> number;
+  auto const direction = [&] {
+    return Vector3f(number(random), number(random), number(random)).normalized();
+  };
+  std::vector<CameraPose> poses;
+  for (int i = 0; i < 15; ++i) {
+    poses.push_back(perturbed(prepared_bracket(), truth, 0.03F * direction(), Vector3f::Zero()));
+    poses.push_back(perturbed(prepared_bracket(), truth, Vector3f::Zero(), 0.6F * direction()));
+  }
+  return poses;
+}
+
+class BracketOnDesk : public ::testing::TestWithParam<double> {};
+
+TEST_P(BracketOnDesk, TheTruthScoresBest) {
+  BracketView const view = bracket_on_desk(GetParam(), {SensorModel::kGaussian});
+  PoseScore const score(prepared_bracket(), view.scene);
+  Verification const right = verified(prepared_bracket(), view.scene, view.truth, {});
+  EXPECT_GT(right.probability, 0.5F);
+  for (std::size_t const points : {std::size_t{100}, std::size_t{800}}) {
+    float const best = score(view.truth, points);
+    EXPECT_LE(best, 1.0F);
+    for (CameraPose const& wrong : wrong_poses(view.truth, 1)) {
+      EXPECT_GT(best, score(wrong, points));
+    }
+  }
+  for (CameraPose const& wrong : wrong_poses(view.truth, 2)) {
+    EXPECT_GT(right.probability, verified(prepared_bracket(), view.scene, wrong, {}).probability);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Yaws, BracketOnDesk, ::testing::Values(0.3, 2.2, 4.4));
+
+TEST(PoseScore, BehindTheCameraIsTheWorst) {
+  BracketView const view = bracket_on_desk(0.3);
+  PoseScore const score(prepared_bracket(), view.scene);
+  CameraPose pose = view.truth;
+  pose.translation_m = {0, 0, -1};
+  EXPECT_EQ(score(pose, 100), PoseScore::kWorst);
+  pose.translation_m = {0, 0, 0};
+  EXPECT_EQ(score(pose, 100), PoseScore::kWorst);
+}
+
+TEST(PoseScore, OutsideOfTheImageNothingIsGained) {
+  BracketView const view = bracket_on_desk(0.3);
+  CameraPose pose = view.truth;
+  pose.translation_m.x() += 5.0F;
+  EXPECT_LE(PoseScore(prepared_bracket(), view.scene)(pose, 100), 0.0F);
+}
+
+TEST(PoseScore, WhatTheSceneIsSeenThroughIsWorseThanWhatIsHidden) {
+  BracketView const view = bracket_on_desk(0.3);
+  PoseScore const score(prepared_bracket(), view.scene);
+  CameraPose before = view.truth;
+  before.translation_m *= 0.8F;
+  SearchScene wall = view.scene;
+  wall.planes.clear();
+  for (ScenePixel& pixel : wall.pixels) {
+    pixel = ScenePixel{0.4F, {0, 0, -127}, kNoPlane, 1};
+  }
+  float const hidden = PoseScore(prepared_bracket(), wall)(view.truth, 400);
+  EXPECT_LT(score(before, 400), hidden);
+  EXPECT_LT(hidden, score(view.truth, 400));
+}
+
+// A piece of a large flat surface looks like one side of a box; its silhouette does not.
+TEST(PoseScore, APieceWithinASurfaceIsWorseThanAFaceOfItsSize) {
+  ObjectModel const box = crate({0.15, 0.15, 0.10});
+  SearchModel const model = prepare_model(box);
+  auto const score_before = [&](Eigen::Vector3d const& size_m) {
+    // Its face is 0.8 m away, that of the model lies in it.
+    Se3 const T_camera_box(
+        Eigen::Quaterniond(Eigen::AngleAxisd(-std::acos(-1.0) / 2, Eigen::Vector3d::UnitX())),
+        {0, size_m.z() / 2, 0.8 + size_m.y() / 2});
+    SearchScene const scene = scene_of(*frame_of({{crate(size_m), T_camera_box}}, {}));
+    Se3 const T_camera_model(T_camera_box.rotation(), {0, 0.05, 0.8 + 0.075});
+    return PoseScore(model, scene)(camera_pose(T_camera_model), 400);
+  };
+  EXPECT_GT(score_before({0.15, 0.15, 0.10}), score_before({0.20, 0.15, 0.16}) + 0.1F);
+}
+
+/// The score of the truth in a scene with one change to each of its pixels.
+template <typename Change>
+float score_after(BracketView const& view, Change const& change) {
+  SearchScene scene = view.scene;
+  for (ScenePixel& pixel : scene.pixels) {
+    change(pixel);
+  }
+  return PoseScore(prepared_bracket(), scene)(view.truth, 400);
+}
+
+TEST(PoseScore, ALargePlaneBeforeItDoesNotHideIt) {
+  BracketView const view = bracket_on_desk(0.3);
+  auto const before = [&](std::uint8_t plane) {
+    return score_after(view, [&](ScenePixel& pixel) {
+      pixel.depth_m = 0.5F;
+      pixel.plane = plane;
+    });
+  };
+  EXPECT_LT(before(0), before(kNoPlane) - 0.2F);
+}
+
+TEST(PoseScore, NormalsThatDisagreeCountLess) {
+  BracketView const view = bracket_on_desk(0.3);
+  float const agreeing = score_after(view, [](ScenePixel&) {});
+  EXPECT_LT(score_after(view,
+                        [](ScenePixel& pixel) {
+                          pixel.normal = {0, 0, 127};
+                        }),
+            agreeing - 0.2F);
+}
+
+TEST(PoseScore, ASurfaceThatGoesOnBeyondTheSilhouetteCountsLess) {
+  SearchModel const plate = prepare_model(
+      {"plate", std::vector<Solid>{BoxSolid{{-0.05, -0.05, 0.0}, {0.05, 0.05, 0.002}}}, {}});
+  CameraPose const pose = camera_pose(Se3(Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 0.8}));
+  SearchScene scene;
+  scene.pixels = Grid<ScenePixel>(640, 480, ScenePixel{0.798F, {0, 0, -127}, kNoPlane, 1});
+  scene.segments.assign(2, SceneSegment{10000, {0.0F, 0.0F, 0.8F}, 0.1F, 0.01F});
+  float const goes_on = PoseScore(plate, scene)(pose, 400);
+  DepthPatch const patch = plate.rendered(pose, scene.intrinsics, scene.size());
+  for (std::size_t i = 0; i < scene.pixels.size(); ++i) {
+    Pixel const p = scene.pixels.pixel(i);
+    Pixel const in_patch{p.u - patch.corner.u, p.v - patch.corner.v};
+    scene.pixels[i].segment = patch.depth_m.contains(in_patch) ? 1 : 2;
+  }
+  EXPECT_GT(PoseScore(plate, scene)(pose, 400), goes_on + 0.1F);
+}
+
+int rendered_px(SearchModel const& model, SearchScene const& scene, CameraPose const& pose) {
+  DepthPatch const patch = model.rendered(pose, scene.intrinsics, scene.size());
+  return static_cast<int>(
+      std::ranges::count_if(patch.depth_m, [](float depth_m) { return depth_m < kNoSurface_m; }));
+}
+
+TEST(Verification, CountsAddUpToWhatIsRendered) {
+  BracketView const view = bracket_on_desk(0.3, {SensorModel::kDisparity});
+  std::vector<CameraPose> poses = wrong_poses(view.truth, 3);
+  poses.push_back(view.truth);
+  for (CameraPose const& pose : poses) {
+    Verification const v = verified(prepared_bracket(), view.scene, pose, {});
+    EXPECT_EQ(v.shown_px(), rendered_px(prepared_bracket(), view.scene, pose));
+    EXPECT_EQ(v.explained_px.size(), static_cast<std::size_t>(v.in_px));
+    EXPECT_TRUE(std::ranges::is_sorted(v.explained_px));
+    EXPECT_FLOAT_EQ(v.visible_fraction, static_cast<float>(v.in_px + v.background_px) /
+                                            static_cast<float>(v.shown_px()));
+    for (float const share : {v.normal_agreement, v.explained, v.outline_open, v.probability}) {
+      EXPECT_GE(share, 0.0F);
+      EXPECT_LE(share, 1.0F);
+    }
+  }
+}
+
+TEST(Verification, WhatIsExplainedIsTheThing) {
+  BracketView const view = bracket_on_desk(0.3);
+  Verification const v = verified(prepared_bracket(), view.scene, view.truth, {});
+  DepthPatch const patch =
+      prepared_bracket().rendered(view.truth, view.scene.intrinsics, view.scene.size());
+  for (std::uint32_t const i : v.explained_px) {
+    Pixel const p = view.scene.pixels.pixel(i);
+    Pixel const in_patch{p.u - patch.corner.u, p.v - patch.corner.v};
+    ASSERT_TRUE(patch.depth_m.contains(in_patch));
+    EXPECT_NEAR(view.scene.pixels[p].depth_m, patch.depth_m[in_patch], 0.012F);
+  }
+  EXPECT_GT(v.in_px, v.shown_px() * 3 / 4);
+  EXPECT_GT(v.normal_agreement, 0.7F);
+  EXPECT_GT(v.explained, 0.8F);
+  EXPECT_LT(v.outline_open, 0.3F);
+}
+
+TEST(Verification, ClaimedPixelsAreHidden) {
+  BracketView const view = bracket_on_desk(0.3);
+  ClaimedPixels claimed(640, 480, 1);
+  Verification const all = verified(prepared_bracket(), view.scene, view.truth, claimed);
+  EXPECT_EQ(all.occluded_px, all.shown_px());
+  EXPECT_GT(all.shown_px(), 1000);
+  EXPECT_EQ(all.probability, 0.0F);
+  EXPECT_TRUE(all.explained_px.empty());
+  Verification const free = verified(prepared_bracket(), view.scene, view.truth, {});
+  std::ranges::fill(claimed, std::uint8_t{0});
+  for (std::size_t i = 0; i < free.explained_px.size(); i += 2) {
+    claimed[free.explained_px[i]] = 1;
+  }
+  Verification const half = verified(prepared_bracket(), view.scene, view.truth, claimed);
+  EXPECT_EQ(half.shown_px(), free.shown_px());
+  EXPECT_EQ(half.in_px, free.in_px / 2);
+  EXPECT_EQ(half.occluded_px - free.occluded_px, free.in_px - half.in_px);
+  EXPECT_LT(half.visible_fraction, free.visible_fraction);
+}
+
+/// The scene with one change to each of its pixels.
+template <typename Change>
+Verification verified_after(BracketView const& view, Change const& change) {
+  SearchScene scene = view.scene;
+  for (ScenePixel& pixel : scene.pixels) {
+    change(pixel);
+  }
+  return verified(prepared_bracket(), scene, view.truth, {});
+}
+
+TEST(Verification, WhatStandsBeforeItHidesIt) {
+  Verification const v = verified_after(bracket_on_desk(0.3), [](ScenePixel& pixel) {
+    pixel.depth_m = 0.5F;
+    pixel.plane = kNoPlane;
+  });
+  EXPECT_EQ(v.occluded_px, v.shown_px());
+  EXPECT_EQ(v.probability, 0.0F);
+}
+
+TEST(Verification, WhatIsBehindItIsSeenThroughIt) {
+  Verification const v = verified_after(bracket_on_desk(0.3), [](ScenePixel& pixel) {
+    pixel.depth_m = 2.0F;
+    pixel.plane = kNoPlane;
+  });
+  EXPECT_EQ(v.seen_through_px, v.shown_px());
+  EXPECT_EQ(v.probability, 0.0F);
+}
+
+TEST(Verification, WithoutDepthNothingIsKnown) {
+  Verification const v =
+      verified_after(bracket_on_desk(0.3), [](ScenePixel& pixel) { pixel = {}; });
+  EXPECT_EQ(v.no_depth_px, v.shown_px());
+  EXPECT_EQ(v.visible_fraction, 0.0F);
+  EXPECT_EQ(v.probability, 0.0F);
+}
+
+TEST(Verification, ALargePlaneIsNoEvidence) {
+  BracketView const view = bracket_on_desk(0.3);
+  ASSERT_FALSE(view.scene.planes.empty());
+  Verification const before = verified(prepared_bracket(), view.scene, view.truth, {});
+  Verification const v = verified_after(view, [](ScenePixel& pixel) { pixel.plane = 0; });
+  EXPECT_EQ(v.in_px, 0);
+  EXPECT_EQ(v.background_px, before.in_px + before.background_px);
+  EXPECT_EQ(v.probability, 0.0F);
+  // One that stands nearer cannot hide it: the thing would be within or behind it.
+  Verification const under = verified_after(view, [](ScenePixel& pixel) {
+    pixel.plane = 0;
+    pixel.depth_m = 0.5F;
+  });
+  EXPECT_EQ(under.seen_through_px, under.shown_px());
+}
+
+// A plate before nothing, and in the midst of a surface that goes on around it.
+TEST(Verification, TellsHowMuchOfASurfaceItExplains) {
+  SearchModel const plate = prepare_model(
+      {"plate", std::vector<Solid>{BoxSolid{{-0.05, -0.05, 0.0}, {0.05, 0.05, 0.002}}}, {}});
+  CameraPose const pose = camera_pose(Se3(Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 0.8}));
+  SearchScene scene;
+  scene.pixels = Grid<ScenePixel>(640, 480, ScenePixel{0.798F, {0, 0, -127}, kNoPlane, 1});
+  scene.segments = {SceneSegment{640 * 480, {0.0F, 0.0F, 0.8F}, 0.1F, 0.01F}};
+  Verification const within = verified(plate, scene, pose, {});
+  EXPECT_LT(within.explained, 0.1F);
+  EXPECT_GT(within.outline_open, 0.9F);
+  EXPECT_GT(within.normal_agreement, 0.95F);
+  scene.segments[0].pixels = within.in_px;
+  for (std::size_t i = 0; i < scene.pixels.size(); ++i) {
+    if (!std::ranges::binary_search(within.explained_px, static_cast<std::uint32_t>(i))) {
+      scene.pixels[i].depth_m = 2.0F;
+    }
+    scene.pixels[i].normal = {0, 0, 127};
+  }
+  Verification const alone = verified(plate, scene, pose, {});
+  EXPECT_GT(alone.explained, 0.95F);
+  EXPECT_LT(alone.outline_open, 0.05F);
+  EXPECT_EQ(alone.normal_agreement, 0.0F) << "turned the other way";
+}
+
+TEST(Verification, OutsideOfTheImageNothingIsShown) {
+  BracketView const view = bracket_on_desk(0.3);
+  CameraPose pose = view.truth;
+  pose.translation_m.x() += 5.0F;
+  Verification const v = verified(prepared_bracket(), view.scene, pose, {});
+  EXPECT_EQ(v.shown_px(), 0);
+  EXPECT_EQ(v.visible_fraction, 0.0F);
+  EXPECT_EQ(v.probability, 0.0F);
+}
+
+TEST(Verification, AHalfHiddenObjectIsLessVisibleYetLikely) {
+  std::vector<Placed> things = desk_and_floor();
+  Se3 const T_world_model = placed_at({0, 0, 0}, 0.3);
+  things.push_back({bracket(), T_world_model});
+  ObjectModel const screen{
+      "screen", std::vector<Solid>{BoxSolid{{0.0, -0.01, 0.0}, {0.2, 0.01, 0.25}}}, {}};
+  things.push_back({screen, placed_at({0.02, -0.25, 0})});
+  SearchScene const scene = scene_of(*frame_of(things, before_desk()));
+  CameraPose const truth = camera_pose(before_desk().inverse() * T_world_model);
+  Verification const v = verified(prepared_bracket(), scene, truth, {});
+  EXPECT_GT(v.occluded_px, v.shown_px() / 5);
+  EXPECT_GT(v.in_px, v.shown_px() / 5);
+  EXPECT_LT(v.seen_through_px, v.shown_px() / 20);
+  EXPECT_GT(v.probability, 0.5F);
+}
+
+}  // namespace
+}  // namespace credo::test
