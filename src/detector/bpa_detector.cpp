@@ -44,9 +44,9 @@ ObjectVerdict verdict_at(SearchModel const& model, SearchScene const& scene, Se3
   if (view.shown_px() == 0) {
     return ObjectVerdict::kOutOfView;
   }
-  bool const hidden =
-      static_cast<float>(view.occluded_px + view.no_depth_px) >= kHiddenShare * shown &&
-      static_cast<float>(view.seen_through_px) <= kSeenThroughShare * shown;
+  bool const hidden = static_cast<float>(view.occluded_px + view.behind_plane_px +
+                                         view.no_depth_px) >= kHiddenShare * shown &&
+                      static_cast<float>(view.seen_through_px) <= kSeenThroughShare * shown;
   return hidden ? ObjectVerdict::kOccluded : ObjectVerdict::kAbsent;
 }
 

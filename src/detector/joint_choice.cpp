@@ -93,7 +93,7 @@ public:
     if (out) {
       in_[*out] = false;
     }
-    return in || out;
+    return in || out || make_room();
   }
 
   [[nodiscard]] std::vector<std::size_t> chosen() const {
@@ -107,6 +107,34 @@ public:
   }
 
 private:
+  /// Adds a pose while another one, `j`, gives way to another of its object, `k`.
+  bool make_room() {
+    for (std::size_t i = 0; i < in_.size(); ++i) {
+      if (in_[i] || rival(i)) {
+        continue;
+      }
+      for (std::size_t j = 0; j < in_.size(); ++j) {
+        if (!in_[j] || losses_[i * in_.size() + j] == 0.0) {
+          continue;
+        }
+        for (std::size_t k = 0; k < in_.size(); ++k) {
+          if (k == j || explanations_[k].object != explanations_[j].object) {
+            continue;
+          }
+          double const moved = swap_gain(k, j);
+          double const added = gain(i) + losses_[i * in_.size() + j] - losses_[i * in_.size() + k];
+          if (moved + added > 1e-9) {
+            in_[j] = false;
+            in_[k] = true;
+            in_[i] = true;
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
   /// Of `i` coming in for `j`.
   [[nodiscard]] double swap_gain(std::size_t i, std::size_t j) const {
     return gain(i) + losses_[i * in_.size() + j] - gain(j);

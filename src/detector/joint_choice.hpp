@@ -23,8 +23,9 @@ struct Explanation {
 [[nodiscard]] double worth_of(std::vector<Explanation> const& explanations,
                               std::vector<std::size_t> const& chosen);
 
-/// Positions of a choice, rising, that no pose added, taken away or put in another's place betters:
-/// from nothing, by the change that betters it most each time. Seldom worse than the best of all.
+/// Positions of a choice, rising, that no pose added, taken away or put in another's place betters,
+/// nor a pose added while another object makes room by another pose of its own: from nothing, by
+/// the change that betters it most each time. Not always the best of all where many compete.
 [[nodiscard]] std::vector<std::size_t> best_choice(std::vector<Explanation> const& explanations);
 
 }  // namespace credo

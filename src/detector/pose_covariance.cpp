@@ -10,12 +10,26 @@ namespace {
 
 constexpr std::size_t kPoints = 800;
 /// Neighbouring pixels err alike: so many of them are worth one.
-constexpr double kEffectiveShare = 0.3;
+constexpr double kEffectiveShare = 1.0;
 /// What all points of a frame have in common.
-constexpr double kBiasAlongRay_m = 0.0007;
-constexpr double kBiasAcross_m = 0.00035;
+constexpr double kBiasAlongRay_m = 0.0004;
+constexpr double kBiasAcross_m = 0.0002;
 constexpr double kUnknown_m = 1.0;
 constexpr double kUnknown_rad = 2.0;
+
+/// Takes out what a turn about a symmetry axis would tell: a mesh of a round thing has corners.
+void forget_turn(Matrix6d& information, SymmetryAxis const& axis, CameraPose const& pose) {
+  Eigen::Matrix3d const rotation = pose.rotation.cast<double>();
+  Eigen::Vector3d const direction = rotation * axis.direction;
+  // The origin moves where it is off the axis.
+  Vector6d turn;
+  turn << direction.cross(-(rotation * axis.point_m)), direction;
+  Vector6d const told = information * turn;
+  double const about = turn.dot(told);
+  if (about > 0.0) {
+    information -= told * told.transpose() / about;
+  }
+}
 
 }  // namespace
 
@@ -24,6 +38,9 @@ PoseDistribution with_covariance(SearchModel const& model, SearchScene const& sc
   PoseEvidence const evidence = evidence_of(model, scene, pose, kPoints);
   Matrix6d information =
       evidence.information * (kEffectiveShare / std::max(1.0, evidence.mean_squared_residual));
+  if (model.symmetry.axis) {
+    forget_turn(information, *model.symmetry.axis, pose);
+  }
   information.diagonal().head<3>().array() += 1.0 / (kUnknown_m * kUnknown_m);
   information.diagonal().tail<3>().array() += 1.0 / (kUnknown_rad * kUnknown_rad);
   Matrix6d covariance = information.inverse();

@@ -76,9 +76,7 @@ PixelVerdict verdict_at(SearchScene const& scene, ScenePixel const& seen, float 
     return PixelVerdict::kSeenThrough;
   }
   if (d_m < -tau_m) {
-    // Nothing stands within a plane that is larger than it: a floor before the model means that the
-    // model would be under the floor.
-    return background ? PixelVerdict::kSeenThrough : PixelVerdict::kOccluded;
+    return background ? PixelVerdict::kBehindPlane : PixelVerdict::kOccluded;
   }
   return background ? PixelVerdict::kBackground : PixelVerdict::kIn;
 }
@@ -152,8 +150,10 @@ float log_odds_of(Verification const& v) {
   if (v.in_px == 0) {
     return -20.0F;
   }
-  float const seen = in + static_cast<float>(v.background_px + v.seen_through_px);
-  float const through = static_cast<float>(v.seen_through_px) / seen;
+  // What would be behind a large plane is taken for seen through: few things hide under tables, and
+  // many poses would.
+  auto const not_there = static_cast<float>(v.seen_through_px + v.behind_plane_px);
+  float const through = not_there / (in + static_cast<float>(v.background_px) + not_there);
   return -13.4F + 4.5F * v.explained - 7.5F * through - 3.9F * v.outline_open +
          0.94F * std::log(in / 500.0F) + 1.9F * std::min(1.0F, 2.0F * v.visible_fraction) +
          7.4F * v.edges_found - 2.2F * v.block_misfit;
@@ -168,7 +168,7 @@ Verification verified(SearchModel const& model, SearchScene const& scene, Camera
   Verification result;
   SegmentCounts in_segments;
   BlockResiduals blocks(patch);
-  std::array<int, 6> counts = {};
+  std::array<int, 7> counts = {};
   for (int v = 0; v < patch.depth_m.height(); ++v) {
     for (int u = 0; u < patch.depth_m.width(); ++u) {
       float const depth_m = patch.depth_m[{u, v}];
@@ -192,6 +192,7 @@ Verification verified(SearchModel const& model, SearchScene const& scene, Camera
   result.in_px = counts[static_cast<std::size_t>(PixelVerdict::kIn)];
   result.background_px = counts[static_cast<std::size_t>(PixelVerdict::kBackground)];
   result.seen_through_px = counts[static_cast<std::size_t>(PixelVerdict::kSeenThrough)];
+  result.behind_plane_px = counts[static_cast<std::size_t>(PixelVerdict::kBehindPlane)];
   result.occluded_px = counts[static_cast<std::size_t>(PixelVerdict::kOccluded)];
   result.no_depth_px = counts[static_cast<std::size_t>(PixelVerdict::kUnmeasured)];
   if (result.shown_px() > 0) {

@@ -22,6 +22,9 @@ enum class PixelVerdict : std::uint8_t {
   kBackground,
   /// The scene is seen through the model.
   kSeenThrough,
+  /// A plane larger than the model stands before it: the model would be under a table, or behind a
+  /// screen.
+  kBehindPlane,
   /// Something stands before it.
   kOccluded,
   kUnmeasured,
@@ -32,6 +35,7 @@ struct Verification {
   int in_px = 0;
   int background_px = 0;
   int seen_through_px = 0;
+  int behind_plane_px = 0;
   int occluded_px = 0;
   int no_depth_px = 0;
   /// Mean distance, over blocks of 8x8 pixels, of their mean depths, in halves of the sensor's
@@ -52,7 +56,7 @@ struct Verification {
   std::vector<std::uint32_t> explained_px;
 
   [[nodiscard]] int shown_px() const {
-    return in_px + background_px + seen_through_px + occluded_px + no_depth_px;
+    return in_px + background_px + seen_through_px + behind_plane_px + occluded_px + no_depth_px;
   }
 };
 

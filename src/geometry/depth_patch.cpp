@@ -82,7 +82,7 @@ struct EdgeFunction {
 };
 
 /// A pixel on the edge of two triangles is drawn by one of them at least, whatever is rounded.
-constexpr float kOnEdge = -1e-4F;
+constexpr float kOnEdge = -1e-5F;
 
 /// Draws one triangle, whose `per_m` are all positive.
 void draw(Projected const& a, Projected const& b, Projected const& c, DepthPatch& patch,

@@ -231,7 +231,7 @@ TEST(BpaDetector, ItSearchesEverywhereOnceInSoManyFrames) {
 }
 
 // Enabled once a lag of 0 waits for the search.
-TEST(BpaDetector, DISABLED_WithoutALagTheFrameWaitsForTheSearch) {
+TEST(BpaDetector, WithoutALagTheFrameWaitsForTheSearch) {
   EXPECT_THAT(told_by(config_of(ObjectSearch::kBoth, 1, 0), 3).found,
               ElementsAre(true, true, true));
 }

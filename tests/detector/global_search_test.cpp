@@ -27,11 +27,11 @@ TEST_P(BracketAnywhere, IsFoundFirst) {
   ASSERT_FALSE(found.empty());
   EXPECT_LE(found.size(), 5U);
   EXPECT_LT(mean_distance_m(model, found[0].pose, view.truth), 0.1 * model.diameter_m);
-  EXPECT_GT(found[0].verification.probability, 0.5F);
+  EXPECT_GT(found[0].verification.log_odds, 0.0F);
   PoseDistance const distance(model);
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      EXPECT_GE(found[j].verification.probability, found[i].verification.probability);
+      EXPECT_GE(found[j].verification.log_odds, found[i].verification.log_odds);
       EXPECT_GT(distance(found[i].pose, found[j].pose), 0.03F * model.diameter_m);
     }
   }
@@ -43,7 +43,7 @@ TEST(GlobalSearch, WhatIsNotThereIsUnlikely) {
   FramePtr const bare = frame_of(desk_and_floor(), before_desk());
   for (PoseCandidate const& candidate :
        search_everywhere(prepared_bracket(), bracket_pairs(), scene_of(*bare), 5)) {
-    EXPECT_LT(candidate.verification.probability, 0.5F);
+    EXPECT_LT(candidate.verification.log_odds, 0.0F);
   }
   Frame blind;
   blind.cloud_camera = cloud_from_depth(Grid<float>(640, 480, 0.0F), blind.intrinsics);
@@ -67,7 +67,7 @@ TEST(GlobalSearch, ACrateAndACanAreFound) {
     EXPECT_LT((found[0].pose * model.centre_model - truth * model.centre_model).norm(),
               0.1F * model.diameter_m)
         << object.name;
-    EXPECT_GT(found[0].verification.probability, 0.5F) << object.name;
+    EXPECT_GT(found[0].verification.log_odds, 0.0F) << object.name;
   };
   expect_found(crate(size_m), T_world_crate);
   expect_found(can(0.04, 0.13), T_world_can);

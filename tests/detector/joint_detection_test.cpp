@@ -93,9 +93,9 @@ TEST_F(TwoBrackets, NoProbabilityRisesAndNoPixelIsExplainedTwice) {
       continue;
     }
     ++count;
-    EXPECT_LE(found[i]->verification.probability,
-              candidate_at(scene_, poses[i]).verification.probability);
-    EXPECT_GE(found[i]->verification.probability, 0.05F);
+    EXPECT_LE(found[i]->verification.log_odds,
+              candidate_at(scene_, poses[i]).verification.log_odds);
+    EXPECT_GE(found[i]->probability, 0.05F);
     for (std::uint32_t const pixel : found[i]->verification.explained_px) {
       EXPECT_EQ(++explained[pixel], 1);
     }
@@ -117,7 +117,7 @@ TEST_F(TwoBrackets, WhatOneExplainsHidesTheNext) {
   PoseCandidate const better = candidate_at(scene_, truths_[0]);
   PoseCandidate worse = better;
   worse.verification.explained_px = {0};
-  worse.verification.probability = better.verification.probability - 0.01F;
+  worse.verification.log_odds = better.verification.log_odds - 0.01F;
   auto const found = choose_jointly(
       {{&prepared_bracket(), {worse}}, {&prepared_bracket(), {better}}}, scene_, kLeast);
   EXPECT_FALSE(found[0].has_value());
@@ -126,10 +126,11 @@ TEST_F(TwoBrackets, WhatOneExplainsHidesTheNext) {
 
 TEST_F(TwoBrackets, AProbabilityStaysAsLowAsItWasAlone) {
   PoseCandidate unlikely = candidate_at(scene_, truths_[0]);
-  unlikely.verification.probability = 0.4F;
+  unlikely.verification.log_odds = -0.5F;
   auto const found = choose_jointly({{&prepared_bracket(), {unlikely}}}, scene_, kLeast);
   ASSERT_TRUE(found[0].has_value());
-  EXPECT_EQ(found[0]->verification.probability, 0.4F);
+  EXPECT_EQ(found[0]->verification.log_odds, -0.5F);
+  EXPECT_LT(found[0]->probability, 0.9F);
 }
 
 TEST_F(TwoBrackets, WithoutCandidatesNothingIsFound) {

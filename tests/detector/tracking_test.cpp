@@ -44,7 +44,7 @@ TEST(SearchNear, FindsWhatStrayedALittle) {
           search_near(model, view.scene, around(expected, 0.01, 0.06), 1, 5);
       ASSERT_FALSE(found.empty());
       EXPECT_LT(mean_distance_m(model, found[0].pose, view.truth), 0.1 * model.diameter_m);
-      EXPECT_GT(found[0].verification.probability, 0.5F);
+      EXPECT_GT(found[0].verification.log_odds, 0.0F);
     }
   }
 }
@@ -76,7 +76,7 @@ TEST(SearchNear, TheLikeliestComesFirstAndNoneIsTwice) {
     EXPECT_LE(found.size(), most);
     for (std::size_t i = 0; i < found.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        EXPECT_GE(found[j].verification.probability, found[i].verification.probability);
+        EXPECT_GE(found[j].verification.log_odds, found[i].verification.log_odds);
         EXPECT_GT(distance(found[i].pose, found[j].pose), 0.02F * model.diameter_m);
       }
     }
@@ -95,7 +95,7 @@ TEST(SearchNear, TheSameSeedGivesTheSame) {
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].pose.rotation, again[i].pose.rotation);
     EXPECT_EQ(one[i].pose.translation_m, again[i].pose.translation_m);
-    EXPECT_EQ(one[i].verification.probability, again[i].verification.probability);
+    EXPECT_EQ(one[i].verification.log_odds, again[i].verification.log_odds);
   }
   std::vector<PoseCandidate> const other = found(8);
   ASSERT_FALSE(one.empty());
@@ -116,8 +116,8 @@ TEST(SearchNear, WhereNothingIsSeenNothingIsLikely) {
   frame.cloud_camera = cloud_from_depth(Grid<float>(640, 480, 0.0F), frame.intrinsics);
   BracketView const view = bracket_on_desk(0.3);
   for (PoseCandidate const& candidate : search_near(prepared_bracket(), scene_of(frame),
-                                                around(view.T_camera_model, 0.01, 0.1), 1, 5)) {
-    EXPECT_EQ(candidate.verification.probability, 0.0F);
+                                                    around(view.T_camera_model, 0.01, 0.1), 1, 5)) {
+    EXPECT_LT(candidate.verification.log_odds, -5.0F);
   }
 }
 
@@ -137,7 +137,7 @@ TEST(SearchNear, FindsACanHoweverItIsTurned) {
   std::vector<PoseCandidate> const found = search_near(model, scene, expected, 1, 5);
   ASSERT_FALSE(found.empty());
   EXPECT_LT(PoseDistance(model)(found[0].pose, camera_pose(truth)), 0.01F);
-  EXPECT_GT(found[0].verification.probability, 0.5F);
+  EXPECT_GT(found[0].verification.log_odds, 0.0F);
 }
 
 TEST(CanTrack, WhatIsKnownWell) {
