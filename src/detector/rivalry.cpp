@@ -8,7 +8,7 @@
 namespace credo {
 namespace {
 
-constexpr float kMostLead = 3.0F;
+constexpr float kMostLead = 6.0F;
 /// Candidates explain the same when they share so much of what the smaller one explains.
 constexpr double kSameShare = 0.4;
 /// One that is so unlikely is nobody's rival.

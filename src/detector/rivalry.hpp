@@ -14,12 +14,12 @@ struct ObjectCandidates {
 };
 
 /// By how much a candidate's log-odds are above those of the best other one that explains mostly
-/// the same pixels; from -3 to 3, and 3 where there is none.
+/// the same pixels; from -6 to 6, and 6 where there is none.
 struct Lead {
   /// Among the other poses of the same object,
-  float over_own = 3.0F;
+  float over_own = 6.0F;
   /// and among all other objects.
-  float over_others = 3.0F;
+  float over_others = 6.0F;
 };
 
 /// One a candidate, in their order.
