@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <random>
 
 #include "detector/facet_proposals.hpp"
 #include "detector/pair_proposals.hpp"
@@ -12,6 +13,7 @@
 #include "detector/pose_distance.hpp"
 #include "detector/pose_refinement.hpp"
 #include "detector/pose_score.hpp"
+#include "detector/procrustes_refinement.hpp"
 
 namespace credo {
 namespace {
@@ -41,6 +43,8 @@ constexpr std::array<FunnelStep, 3> kFunnel = {
 /// So many poses of each segment go on, however poor beside others.
 constexpr int kOfEachSegment = 2;
 constexpr float kCandidatesApart_diameters = 0.10F;
+/// Of one model's search, so that it is the same on any thread.
+constexpr std::uint64_t kDrawSeed = 1;
 
 void sort_best_first(std::vector<Scored>& poses) {
   std::ranges::stable_sort(poses, std::greater{}, &Scored::score);
@@ -82,12 +86,24 @@ void refine(Scored& pose, SearchModel const& model, SearchScene const& scene,
   }
 }
 
+/// ICP needs to begin near: what is left of all proposals is drawn towards it before.
+void align(std::vector<Scored>& poses, SearchModel const& model, SearchScene const& scene,
+           PoseScore const& score, std::mt19937_64& random) {
+  for (Scored& pose : poses) {
+    ScoredPose const aligned =
+        procrustes_refined(model, scene, score, {pose.pose, pose.score}, kCoarsePoints, random);
+    pose.pose = aligned.pose;
+    pose.score = aligned.score;
+  }
+}
+
 }  // namespace
 
 std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable const& pairs,
                                              SearchScene const& scene, std::size_t max_candidates) {
   PoseScore const score(model, scene);
   PoseDistance const distance(model);
+  std::mt19937_64 random(kDrawSeed);
   std::vector<Scored> poses;
   for (auto const& proposals :
        {propose_by_pairs(model, pairs, scene), propose_by_facets(model, scene)}) {
@@ -98,6 +114,9 @@ std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable
   for (FunnelStep const& step : kFunnel) {
     poses = survivors(std::move(poses), distance, step.apart_diameters * model.diameter_m,
                       step.survivors);
+    if (&step == &kFunnel.front()) {
+      align(poses, model, scene, score, random);
+    }
     for (Scored& pose : poses) {
       refine(pose, model, scene, score, step);
     }
