@@ -156,9 +156,9 @@ float log_odds_of(Verification const& v) {
   // many poses would.
   auto const not_there = static_cast<float>(v.seen_through_px + v.behind_plane_px);
   float const through = not_there / (in + static_cast<float>(v.background_px) + not_there);
-  return -13.4F + 4.5F * v.explained - 7.5F * through - 3.9F * v.outline_open +
-         0.94F * std::log(in / 500.0F) + 1.9F * std::min(1.0F, 2.0F * v.visible_fraction) +
-         7.4F * v.edges_found - 2.2F * std::max(kSlack, v.block_misfit);
+  return -11.8F + 3.8F * v.explained - 6.8F * through - 4.0F * v.outline_open +
+         1.16F * std::log(in / 500.0F) + 2.0F * std::min(1.0F, 2.0F * v.visible_fraction) +
+         7.1F * v.edges_found - 2.0F * std::max(kSlack, v.block_misfit);
 }
 
 }  // namespace
