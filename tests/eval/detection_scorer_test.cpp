@@ -91,6 +91,8 @@ TEST(DetectionScorer, OneDetectionIsOfOneObjectAndTheHighestScoreGoesFirst) {
              {{"box", pose(0)}, {"box", pose(0.04)}});
   EXPECT_EQ(scorer.last_matches()[0][0], 1U);
   EXPECT_EQ(scorer.last_matches()[1][0], 0U);
+  scorer.add({detection("box", pose(0.01))}, {{"box", pose(0)}, {"box", pose(0.04)}});
+  EXPECT_EQ(scorer.last_matches()[0][0], 0U) << "the nearer, though it is the first";
 }
 
 TEST(DetectionScorer, SymmetryIsNoError) {
