@@ -91,6 +91,8 @@ TEST(DetectionScorer, OneDetectionIsOfOneObjectAndTheHighestScoreGoesFirst) {
              {{"box", pose(0)}, {"box", pose(0.04)}});
   EXPECT_EQ(scorer.last_matches()[0][0], 1U);
   EXPECT_EQ(scorer.last_matches()[1][0], 0U);
+  scorer.add({detection("box", pose(0.01))}, {{"box", pose(0)}, {"box", pose(0.04)}});
+  EXPECT_EQ(scorer.last_matches()[0][0], 0U) << "the nearer, though it is the first";
 }
 
 TEST(DetectionScorer, SymmetryIsNoError) {
@@ -175,6 +177,44 @@ TEST(DetectionScorer, HonestCovariancesLieWithinTheBounds) {
   EXPECT_NEAR(good.nees_6.low_bound, 5.530, 0.002);
   EXPECT_NEAR(good.nees_6.high_bound, 6.489, 0.002);
   EXPECT_NEAR(too_sure.scores().nees_6.mean, 4.0 * good.nees_6.mean, 1e-6);
+}
+
+TEST(DetectionScorer, TheBoundOfWhatIsToBeFoundCountsForDistancesToo) {
+  TrueModels const known = models();
+  DetectionScorer scorer(known);
+  scorer.add({detection("box", pose(0)), detection("can", pose(1))},
+             {{"box", pose(0), 0.1}, {"can", pose(1), 0.09}});
+  EXPECT_DOUBLE_EQ(scorer.scores().add_recall, 1.0);
+  // The box's diameter is 37 cm: 3.6 cm are near enough, 3.9 are not.
+  DetectionScorer near(known);
+  near.add({detection("box", pose(0.036)), detection("box", pose(1.039))},
+           {{"box", pose(0)}, {"box", pose(1)}});
+  EXPECT_DOUBLE_EQ(near.scores().add_recall, 0.5);
+}
+
+TEST(DetectionScorer, NeesIsOfAllThatIsRightToTheWideTier) {
+  TrueModels const known = models();
+  DetectionScorer scorer(known);
+  // Errors of 1, 3 and 4 cm where one centimetre is told; the last two are right to wide alone.
+  scorer.add({detection("box", pose(0.01))}, {{"box", pose(0)}});
+  scorer.add({detection("box", pose(0.03))}, {{"box", pose(0)}});
+  scorer.add({detection("box", pose(0.04))}, {{"box", pose(0)}});
+  NeesScores const nees = scorer.scores().nees_6;
+  EXPECT_EQ(nees.count, 3U);
+  EXPECT_NEAR(nees.mean, (1.0 + 9.0 + 16.0) / 3.0, 1e-6);
+  EXPECT_NEAR(nees.median, 9.0, 1e-6);
+  // 95 % of chi-square of 6 degrees of freedom are below 12.59.
+  EXPECT_NEAR(nees.coverage, 2.0 / 3.0, 1e-9);
+}
+
+TEST(DetectionScorer, TheLimitOfCoverageIsThatOfItsDegreesOfFreedom) {
+  TrueModels const known = models();
+  // Squares of 12.3 and 11.2: within 12.59 (6) and beyond 11.07 (5), both beyond their 90 %.
+  DetectionScorer scorer(known);
+  scorer.add({detection("box", pose(0.01 * std::sqrt(12.3)))}, {{"box", pose(0)}});
+  scorer.add({detection("can", pose(0.01 * std::sqrt(11.2)))}, {{"can", pose(0)}});
+  EXPECT_EQ(scorer.scores().nees_6.coverage, 1.0);
+  EXPECT_EQ(scorer.scores().nees_5.coverage, 0.0);
 }
 
 TEST(DetectionScorer, NothingAtAll) {

@@ -48,5 +48,22 @@ TEST(Resting, ATallLeaningPrismFallsOver) {
   }
 }
 
+TEST(Resting, AThinRodDoesNotStandOnItsEnd) {
+  // Half its width over half its height: 0.04, then 0.13.
+  EXPECT_EQ(rests_of(block({0.012, 0.012, 0.3})).size(), 4U);
+  EXPECT_EQ(rests_of(block({0.04, 0.04, 0.3})).size(), 6U);
+}
+
+TEST(Resting, WhatStandsOnASmallKnobFallsThoughItsRimIsNear) {
+  // A foot of 8 mm, 4 mm below a wide base: the base does not touch the table.
+  TriangleMesh const knobbed =
+      joined({block({0.1, 0.1, 0.1}), moved(block({0.008, 0.008, 0.02}),
+                                            Se3(Eigen::Quaterniond::Identity(), {0, 0, -0.044}))});
+  for (Rest const& rest : rests_of(knobbed)) {
+    Eigen::Vector3d const down = rest.turn.conjugate() * -Eigen::Vector3d::UnitZ();
+    EXPECT_GT(down.z(), -0.999) << "on its knob";
+  }
+}
+
 }  // namespace
 }  // namespace credo::test

@@ -4,6 +4,8 @@
 #include <pcl/filters/extract_indices.h>
 #include <pcl/segmentation/sac_segmentation.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -54,11 +56,22 @@ Points::Ptr sparse_points(OrganizedCloud const& cloud) {
 Table table_of(Eigen::Vector4f const& plane, Points const& points, pcl::Indices const& inliers) {
   Table table{plane.head<3>(), plane.w(), plane.head<3>().unitOrthogonal(), {}, {}};
   table.y = table.normal.cross(table.x);
+  // A plane without end crosses the wall: what is far from its middle point is left out.
+  constexpr double kLargest_m = 0.9;
   std::vector<Eigen::Vector2d> flat;
+  std::array<std::vector<double>, 2> along;
   for (int const i : inliers) {
     Eigen::Vector3f const p = points[static_cast<std::size_t>(i)].getVector3fMap();
     flat.emplace_back(table.x.dot(p), table.y.dot(p));
+    along[0].push_back(flat.back().x());
+    along[1].push_back(flat.back().y());
   }
+  for (std::vector<double>& values : along) {
+    std::ranges::nth_element(values,
+                             values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  }
+  Eigen::Vector2d const middle(along[0][flat.size() / 2], along[1][flat.size() / 2]);
+  std::erase_if(flat, [&](Eigen::Vector2d const& p) { return (p - middle).norm() > kLargest_m; });
   table.rim = convex_polygon(flat);
   return table;
 }
