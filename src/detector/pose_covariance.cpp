@@ -10,10 +10,10 @@ namespace {
 
 constexpr std::size_t kPoints = 800;
 /// Neighbouring pixels err alike: so many of them are worth one.
-constexpr double kEffectiveShare = 1.0;
+constexpr double kEffectiveShare = 0.5;
 /// What all points of a frame have in common.
-constexpr double kBiasAlongRay_m = 0.0004;
-constexpr double kBiasAcross_m = 0.0002;
+constexpr double kBiasAlongRay_m = 0.0005;
+constexpr double kBiasAcross_m = 0.00025;
 constexpr double kUnknown_m = 1.0;
 constexpr double kUnknown_rad = 2.0;
 
