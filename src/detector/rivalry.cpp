@@ -76,6 +76,7 @@ std::vector<Entry> entries_of(std::vector<ObjectCandidates> const& objects,
 std::vector<std::vector<Lead>> leads_of(std::vector<ObjectCandidates> const& objects,
                                         int width_px) {
   std::vector<std::vector<Lead>> leads;
+  leads.reserve(objects.size());
   for (ObjectCandidates const& object : objects) {
     leads.emplace_back(object.candidates.size());
   }
