@@ -104,6 +104,7 @@ std::vector<ObjectAnswer> BpaDetector::answers(Frame const& frame,
                                                std::vector<DetectionRequest> const& requests) {
   auto const scene = std::make_shared<SearchScene const>(scene_of(frame));
   std::vector<ObjectCandidates> objects;
+  objects.reserve(requests.size());
   for (DetectionRequest const& request : requests) {
     objects.push_back({model_of(request), candidates_of(request, *scene, frame)});
   }
@@ -118,6 +119,7 @@ std::vector<ObjectAnswer> BpaDetector::answers(Frame const& frame,
     found = choose_jointly(objects, *scene, least);
   }
   std::vector<ObjectAnswer> answers;
+  answers.reserve(requests.size());
   for (std::size_t i = 0; i < requests.size(); ++i) {
     answers.push_back(answer_of(requests[i], objects[i].model, found[i], *scene));
   }

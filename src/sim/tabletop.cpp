@@ -1,7 +1,8 @@
 #include "sim/tabletop.hpp"
 
 #include <array>
-#include <cstdio>
+#include <cstddef>
+#include <iomanip>
 #include <memory>
 #include <sstream>
 
@@ -14,9 +15,9 @@ constexpr std::array<char const*, 3> kShapeNames = {"box", "cylinder", "sphere"}
 constexpr std::array<std::size_t, 3> kSizeCounts = {3, 2, 1};
 
 std::string decimals(double value, int places) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), " %.*f", places, value);
-  return text.data();
+  std::ostringstream text;
+  text << ' ' << std::fixed << std::setprecision(places) << value;
+  return text.str();
 }
 
 std::string numbers(Eigen::Vector3d const& values, int places) {
