@@ -65,7 +65,6 @@ FieldList fields(BpaConfig& config) {
        "frames",
        "what is found everywhere is told so much later; the search runs beside the pipeline "
        "meanwhile; 0: the frame waits; -1: as soon as it is done (live)"},
-      {"cache", &config.cache, {}, "", "folder that keeps prepared models; empty: none are kept"},
       {"seed", &config.seed, {0, 1e9}, "", "of all random choices"},
   };
 }

@@ -62,8 +62,6 @@ struct BpaConfig {
   /// meanwhile. With 0 the frame waits for it; with -1 it is told as soon as it is there, which may
   /// differ from run to run.
   int global_lag_frames = 3;
-  /// Prepared models are kept in this folder from run to run; empty: nowhere.
-  std::string cache;
   int seed = 1;
 };
 FieldList fields(BpaConfig& config);

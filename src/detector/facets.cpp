@@ -124,7 +124,7 @@ std::optional<Facet> take_facet(std::vector<OrientedPoint>& points, float tolera
   }
   float const offset_m = middle(std::move(offsets_m));
   std::vector<Eigen::Vector3f> own;
-  auto const rest = std::ranges::remove_if(points, [&](OrientedPoint const& p) {
+  std::erase_if(points, [&](OrientedPoint const& p) {
     bool const is_own = p.normal.dot(facet.normal) > kSameNormalCosine &&
                         std::abs(facet.normal.dot(p.point) - offset_m) < tolerance_m;
     if (is_own) {
@@ -132,7 +132,6 @@ std::optional<Facet> take_facet(std::vector<OrientedPoint>& points, float tolera
     }
     return is_own;
   });
-  points.erase(rest.begin(), rest.end());
   if (own.size() < least) {
     return std::nullopt;
   }

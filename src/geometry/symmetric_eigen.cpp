@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace credo {
@@ -14,11 +15,11 @@ struct Progress {
   /// One vector a row.
   std::array<std::array<double, 4>, 4> vectors;
 
-  double& at(int i, int j) { return i < j ? a[i][j] : a[j][i]; }
+  double& at(std::size_t i, std::size_t j) { return i < j ? a[i][j] : a[j][i]; }
 };
 
 /// Turns axes p and q, and leaves no A_pq (Golub and Van Loan, 8.5).
-template <int p, int q, int r, int s>
+template <std::size_t p, std::size_t q, std::size_t r, std::size_t s>
 void rotate(Progress& on) {
   double const apart = on.a[q][q] - on.a[p][p];
   double const twice = 2.0 * on.a[p][q];
@@ -34,14 +35,14 @@ void rotate(Progress& on) {
   on.a[p][p] -= moved;
   on.a[q][q] += moved;
   on.a[p][q] = 0.0;
-  for (int const other : {r, s}) {
+  for (std::size_t const other : {r, s}) {
     double& first = on.at(p, other);
     double& second = on.at(q, other);
     double const before = first;
     first = cosine * before - sine * second;
     second = sine * before + cosine * second;
   }
-  for (int i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 4; ++i) {
     double const before = on.vectors[p][i];
     on.vectors[p][i] = cosine * before - sine * on.vectors[q][i];
     on.vectors[q][i] = sine * before + cosine * on.vectors[q][i];
@@ -58,9 +59,9 @@ double largest_beside_diagonal(Progress const& on) {
 
 SymmetricEigen symmetric_eigen(Eigen::Matrix4d const& A) {
   Progress on{};
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
-      on.a[i][j] = A(i, j);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      on.a[i][j] = A(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
     }
     on.vectors[i][i] = 1.0;
   }
@@ -75,13 +76,14 @@ SymmetricEigen symmetric_eigen(Eigen::Matrix4d const& A) {
     rotate<0, 3, 1, 2>(on);
     rotate<1, 2, 0, 3>(on);
   }
-  std::array<int, 4> order = {0, 1, 2, 3};
+  std::array<std::size_t, 4> order = {0, 1, 2, 3};
   // Equal values stay in their order; a stable sort would allocate.
-  std::ranges::sort(order, {}, [&](int i) { return std::pair(on.a[i][i], i); });
+  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(on.a[i][i], i); });
   SymmetricEigen result;
-  for (int k = 0; k < 4; ++k) {
-    result.values[k] = on.a[order[k]][order[k]];
-    result.vectors.col(k) = Eigen::Vector4d::Map(on.vectors[order[k]].data());
+  for (std::size_t k = 0; k < 4; ++k) {
+    auto const column = static_cast<Eigen::Index>(k);
+    result.values[column] = on.a[order[k]][order[k]];
+    result.vectors.col(column) = Eigen::Vector4d::Map(on.vectors[order[k]].data());
   }
   return result;
 }
