@@ -124,6 +124,7 @@ std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable
   poses = survivors(std::move(poses), distance, kCandidatesApart_diameters * model.diameter_m,
                     kFunnel.back().survivors);
   std::vector<PoseCandidate> candidates;
+  candidates.reserve(poses.size());
   for (Scored const& pose : poses) {
     candidates.push_back(polished(model, scene, pose.pose));
   }

@@ -117,6 +117,7 @@ std::vector<PoseCandidate> search_near(SearchModel const& model, SearchScene con
   }
   keep_best(poses, distance, 0.05F * model.diameter_m, max_candidates);
   std::vector<PoseCandidate> candidates;
+  candidates.reserve(poses.size());
   for (Scored const& pose : poses) {
     candidates.push_back({pose.pose, verified(model, scene, pose.pose, {})});
   }

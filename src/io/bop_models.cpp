@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <iomanip>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "core/se3.hpp"
@@ -69,10 +71,10 @@ std::vector<ObjectModel> read_bop_models(fs::path const& folder, std::string con
     Json const infos = Json::parse(file);
     for (auto const& [number, info] : infos.items()) {
       int const id = std::stoi(number);
-      std::array<char, 24> name{};
-      std::snprintf(name.data(), name.size(), "obj_%06d.ply", id);
+      std::ostringstream name;
+      name << "obj_" << std::setw(6) << std::setfill('0') << id << ".ply";
       models[id] = {prefix + "_" + number,
-                    read_mesh(folder / name.data(), LengthUnit::kMillimetre).mesh,
+                    read_mesh(folder / name.str(), LengthUnit::kMillimetre).mesh,
                     symmetry_of(info)};
     }
   } catch (InputError const& error) {
@@ -81,6 +83,7 @@ std::vector<ObjectModel> read_bop_models(fs::path const& folder, std::string con
     throw InputError(list.string() + ": not a list of BOP models: " + error.what());
   }
   std::vector<ObjectModel> sorted;
+  sorted.reserve(models.size());
   for (auto& [id, model] : models) {
     sorted.push_back(std::move(model));
   }
