@@ -101,7 +101,7 @@ TEST(BpaDetector, FindsWhatIsAnywhere) {
   std::vector<ObjectAnswer> const answers =
       detector.answers(*desk_frame(), {vague_request(before_desk().inverse())});
   ASSERT_EQ(answers.size(), 1U);
-  EXPECT_EQ(answers[0].verdict, ObjectVerdict::kFound);
+  expect_at(answers[0], truth_from());
 }
 
 TEST(BpaDetector, SearchesNearByOnlyWhereTold) {
@@ -116,6 +116,15 @@ TEST(BpaDetector, WhatStandsBehindSomethingIsOccluded) {
   std::vector<Placed> things = desk_and_floor();
   things.push_back(
       {{"ball", std::vector<Solid>{SphereSolid{0.2}}, {}}, placed_at({0.0, -0.35, 0})});
+  FramePtr const frame = frame_of(things, before_desk());
+  EXPECT_EQ(verdict(*frame, request(truth_from())), ObjectVerdict::kOccluded);
+}
+
+TEST(BpaDetector, WhatStandsBehindAScreenIsOccludedToo) {
+  std::vector<Placed> things = desk_and_floor();
+  things.push_back(
+      {{"screen", std::vector<Solid>{BoxSolid{{-0.35, -0.01, 0.0}, {0.35, 0.01, 0.4}}}, {}},
+       placed_at({0.0, -0.3, 0})});
   FramePtr const frame = frame_of(things, before_desk());
   EXPECT_EQ(verdict(*frame, request(truth_from())), ObjectVerdict::kOccluded);
 }
@@ -225,12 +234,21 @@ TEST(BpaDetector, ALagOfOneIsTheNextFrame) {
               ElementsAre(false, true, false, true));
 }
 
+TEST(BpaDetector, WhatIsToldLaterFollowsTheCamerasWay) {
+  BpaDetector detector(models(), config_of(ObjectSearch::kBoth, 1, 1));
+  Se3 const aside(before_desk().rotation(),
+                  before_desk().translation() + Eigen::Vector3d(0.12, 0, 0));
+  (void)detector.answers(*desk_frame(), {vague_request(before_desk().inverse())});
+  std::vector<ObjectAnswer> const answers =
+      detector.answers(*desk_frame(true, aside, 1), {vague_request(aside.inverse())});
+  expect_at(answers.at(0), truth_from(aside));
+}
+
 TEST(BpaDetector, ItSearchesEverywhereOnceInSoManyFrames) {
   EXPECT_THAT(told_by(config_of(ObjectSearch::kBoth, 4, 2), 8).found,
               ElementsAre(false, false, true, false, false, false, true, false));
 }
 
-// Enabled once a lag of 0 waits for the search.
 TEST(BpaDetector, WithoutALagTheFrameWaitsForTheSearch) {
   EXPECT_THAT(told_by(config_of(ObjectSearch::kBoth, 1, 0), 3).found,
               ElementsAre(true, true, true));

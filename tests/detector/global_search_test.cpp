@@ -37,7 +37,7 @@ TEST_P(BracketAnywhere, IsFoundFirst) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Yaws, BracketAnywhere, ::testing::Values(2.2, 4.4));
+INSTANTIATE_TEST_SUITE_P(Yaws, BracketAnywhere, ::testing::Values(0.3, 2.2, 4.4));
 
 TEST(GlobalSearch, WhatIsNotThereIsUnlikely) {
   FramePtr const bare = frame_of(desk_and_floor(), before_desk());
