@@ -87,7 +87,7 @@ std::vector<DetectionRequest> missing(std::vector<DetectionRequest> const& reque
 }  // namespace
 
 BpaDetector::BpaDetector(ObjectModels const& models, BpaConfig config)
-    : models_(prepare_models(models)), config_(std::move(config)) {}
+    : models_(prepare_models(models)), config_(config) {}
 
 std::vector<Detection> BpaDetector::detect(Frame const& frame,
                                            std::vector<DetectionRequest> const& requests) {
