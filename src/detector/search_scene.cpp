@@ -4,18 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "detector/scene_planes.hpp"
 
 namespace credo {
 namespace {
-
-/// Planes are looked for in segments of at least this share of the image,
-constexpr float kPlaneImageShare = 0.02F;
-/// or of this extent,
-constexpr float kPlaneExtent_m = 0.3F;
-/// that are so flat, as deviation at 1 m, growing with the square of the range.
-constexpr float kPlaneRms_m = 0.006F;
-constexpr float kPlaneAngleCosine = 0.85F;
-constexpr std::size_t kMaxPlanes = 32;
 
 /// Sums over a segment's points.
 struct Moments {
@@ -104,82 +98,11 @@ SceneSegment segment_of(Moments const& moments) {
   return segment;
 }
 
-std::vector<ScenePlane> planes_of(SearchScene const& scene, std::vector<Moments> const& moments) {
-  std::vector<ScenePlane> planes;
-  std::vector<std::size_t> order(moments.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
-  }
-  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return moments[i].count; });
-  double const least_pixels =
-      static_cast<double>(kPlaneImageShare) * static_cast<double>(scene.pixels.size());
-  for (std::size_t const i : order) {
-    SceneSegment const& segment = scene.segments[i];
-    if (segment.pixels < 400 || planes.size() == kMaxPlanes) {
-      break;
-    }
-    if (moments[i].count < least_pixels && segment.extent_m < kPlaneExtent_m) {
-      continue;
-    }
-    Spread const spread = spread_of(moments[i]);
-    auto const range_m = static_cast<float>(spread.mean.z());
-    if (std::sqrt(spread.variances[0]) >
-        static_cast<double>(kPlaneRms_m * std::max(1.0F, range_m * range_m))) {
-      continue;
-    }
-    Eigen::Vector3d normal = spread.axes.col(0);
-    if (normal.dot(spread.mean) > 0.0) {
-      normal = -normal;
-    }
-    planes.push_back({normal.cast<float>(), static_cast<float>(normal.dot(spread.mean)),
-                      segment.extent_m, static_cast<std::uint16_t>(i + 1)});
-  }
-  return planes;
-}
-
-/// A pixel is of the first plane that it lies on: its own segment's, or one that goes on through
-/// other segments where it turns the same way.
-void mark_planes(SearchScene& scene) {
-  for (int v = 0; v < scene.pixels.height(); ++v) {
-    for (int u = 0; u < scene.pixels.width(); ++u) {
-      ScenePixel& pixel = scene.pixels[{u, v}];
-      if (pixel.depth_m <= 0.0F) {
-        continue;
-      }
-      Eigen::Vector3f const point = scene.point_at({u, v});
-      float const tolerance_m = 0.005F + 0.003F * pixel.depth_m * pixel.depth_m;
-      for (std::size_t i = 0; i < scene.planes.size(); ++i) {
-        ScenePlane const& plane = scene.planes[i];
-        if (std::abs(plane.normal_camera.dot(point) - plane.offset_m) > tolerance_m) {
-          continue;
-        }
-        bool const own = plane.segment == pixel.segment;
-        if (own || !pixel.has_normal() ||
-            pixel.normal_camera().dot(plane.normal_camera) > kPlaneAngleCosine) {
-          pixel.plane = static_cast<std::uint8_t>(i);
-          break;
-        }
-      }
-    }
-  }
-}
-
-/// Every third pixel of every third row is enough for flat pieces.
-constexpr int kFacetStep_px = 3;
 constexpr std::size_t kFacetPoints = 25;
 constexpr float kFacetShare = 0.08F;
 
 std::vector<Facet> scene_facets(SearchScene const& scene) {
-  std::vector<std::vector<OrientedPoint>> of_segments(scene.segments.size());
-  for (int v = 0; v < scene.pixels.height(); v += kFacetStep_px) {
-    for (int u = 0; u < scene.pixels.width(); u += kFacetStep_px) {
-      ScenePixel const& pixel = scene.pixels[{u, v}];
-      if (pixel.segment > 0 && pixel.has_normal()) {
-        of_segments[pixel.segment - 1U].push_back(
-            {scene.point_at({u, v}), pixel.normal_camera().normalized()});
-      }
-    }
-  }
+  SegmentPoints of_segments = points_of_segments(scene, scene.segments.size());
   std::vector<Facet> facets;
   for (std::size_t i = 0; i < of_segments.size(); ++i) {
     float const tolerance_m = depth_tolerance_m(scene.segments[i].centre_m.z());
@@ -192,6 +115,11 @@ std::vector<Facet> scene_facets(SearchScene const& scene) {
   return facets;
 }
 
+void find_planes(SearchScene& scene, std::size_t segment_count) {
+  scene.planes = large_planes(points_of_segments(scene, segment_count), scene.pixels.size());
+  mark_planes(scene);
+}
+
 }  // namespace
 
 SearchScene prepare_scene(Grid<float> const& depth_m, CameraIntrinsics const& intrinsics,
@@ -199,12 +127,18 @@ SearchScene prepare_scene(Grid<float> const& depth_m, CameraIntrinsics const& in
   SearchScene scene;
   scene.intrinsics = intrinsics;
   scene.pixels = pixels_of(depth_m, normals, segments);
-  std::vector<Moments> const moments = moments_of(scene, segments.pixel_counts.size());
-  for (Moments const& of_segment : moments) {
+  std::size_t segment_count = segments.pixel_counts.size();
+  find_planes(scene, segment_count);
+  std::size_t const split_count = split_from_planes(scene, segment_count);
+  if (split_count > segment_count) {
+    // What was split off may be a plane itself, such as a desk's front.
+    segment_count = split_count;
+    find_planes(scene, segment_count);
+  }
+  scene.segments.reserve(segment_count);
+  for (Moments const& of_segment : moments_of(scene, segment_count)) {
     scene.segments.push_back(segment_of(of_segment));
   }
-  scene.planes = planes_of(scene, moments);
-  mark_planes(scene);
   scene.facets = scene_facets(scene);
   return scene;
 }

@@ -1,5 +1,6 @@
 #include "detector/verification.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,6 +49,71 @@ private:
   };
   Grid<Block> blocks_;
 };
+
+/// Inverse depths, in which planes are linear over the image and a sensor of disparity errs alike
+/// everywhere: how far they are from the model's, and from the best plane's.
+class InverseDepths {
+public:
+  void add(Pixel pixel, float scene_m, float model_m) {
+    double const told = 1.0 / static_cast<double>(scene_m);
+    double const off = told - 1.0 / static_cast<double>(model_m);
+    Eigen::Vector3d const at(1.0, pixel.u, pixel.v);
+    normal_ += at * at.transpose();
+    told_ += told * at;
+    told_squared_ += told * told;
+    off_ += off;
+    off_squared_ += off * off;
+    variance_ += std::pow(static_cast<double>(depth_deviation_m(model_m)) /
+                              (static_cast<double>(model_m) * static_cast<double>(model_m)),
+                          2);
+  }
+  [[nodiscard]] float relief() const {
+    double const count = normal_(0, 0);
+    if (count < kLeast) {
+      return 0.0F;
+    }
+    double const from_plane = told_squared_ - told_.dot(normal_.ldlt().solve(told_));
+    double const from_model = off_squared_ - off_ * off_ / count;
+    double const ratio =
+        (std::max(0.0, from_plane) + variance_) / (std::max(0.0, from_model) + variance_);
+    return static_cast<float>(std::max(0.0, 0.5 * std::log(ratio)));
+  }
+
+private:
+  static constexpr double kLeast = 12.0;
+  Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d told_ = Eigen::Vector3d::Zero();
+  double told_squared_ = 0.0;
+  double off_ = 0.0;
+  double off_squared_ = 0.0;
+  double variance_ = 0.0;
+};
+
+/// Pixels of the model behind each plane, and whether it stands before that plane.
+using BehindPlanes = std::vector<int>;
+
+/// Of the pixels behind planes, those behind a plane that most of what is in lies before.
+int sunk(BehindPlanes const& behind, std::vector<std::uint32_t> const& in,
+         SearchScene const& scene) {
+  constexpr float kBefore_m = 0.01F;
+  int sunk_px = 0;
+  for (std::size_t p = 0; p < behind.size(); ++p) {
+    if (behind[p] == 0) {
+      continue;
+    }
+    ScenePlane const& plane = scene.planes[p];
+    auto const before = std::ranges::count_if(in, [&](std::uint32_t position) {
+      auto const at = static_cast<int>(position);
+      int const width = scene.pixels.width();
+      return plane.normal_camera.dot(scene.point_at({at % width, at / width})) - plane.offset_m >
+             kBefore_m;
+    });
+    if (2 * static_cast<std::size_t>(before) > in.size()) {
+      sunk_px += behind[p];
+    }
+  }
+  return sunk_px;
+}
 
 /// Pixels in, by segment; few segments at a time.
 using SegmentCounts = std::vector<std::pair<std::uint16_t, int>>;
@@ -152,13 +218,17 @@ float log_odds_of(Verification const& v) {
   }
   // Models and real sensors agree no better than that.
   constexpr float kSlack = 0.6F;
-  // What would be behind a large plane is taken for seen through: few things hide under tables, and
-  // many poses would.
-  auto const not_there = static_cast<float>(v.seen_through_px + v.behind_plane_px);
-  float const through = not_there / (in + static_cast<float>(v.background_px) + not_there);
-  return -11.8F + 3.8F * v.explained - 6.8F * through - 4.0F * v.outline_open +
-         1.16F * std::log(in / 500.0F) + 2.0F * std::min(1.0F, 2.0F * v.visible_fraction) +
-         7.1F * v.edges_found - 2.0F * std::max(kSlack, v.block_misfit);
+  // Of a thing that is there no more than 2 % is ever sunk into a plane; a tenth says it all.
+  constexpr float kSurelySunk = 0.1F;
+  // What would be wholly behind a large plane is taken for seen through: few things hide under
+  // tables, and many poses would.
+  auto const not_there = static_cast<float>(v.seen_through_px + v.behind_plane_px - v.sunk_px);
+  float const all =
+      in + static_cast<float>(v.background_px + v.seen_through_px + v.behind_plane_px);
+  return -9.0F + 3.2F * v.explained - 0.44F * std::log(0.01F + not_there / all) -
+         3.6F * std::min(1.0F, static_cast<float>(v.sunk_px) / (kSurelySunk * all)) -
+         0.83F * std::log(0.05F + v.outline_open) - 1.02F * std::log(1.02F - v.edges_found) +
+         0.69F * std::log(in / 500.0F) + 0.63F * v.relief - 2.0F * std::max(kSlack, v.block_misfit);
 }
 
 }  // namespace
@@ -170,6 +240,8 @@ Verification verified(SearchModel const& model, SearchScene const& scene, Camera
   Verification result;
   SegmentCounts in_segments;
   BlockResiduals blocks(patch);
+  InverseDepths inverse;
+  BehindPlanes behind(scene.planes.size(), 0);
   std::array<int, 7> counts = {};
   for (int v = 0; v < patch.depth_m.height(); ++v) {
     for (int u = 0; u < patch.depth_m.width(); ++u) {
@@ -183,9 +255,13 @@ Verification verified(SearchModel const& model, SearchScene const& scene, Camera
           verdict_at(scene, seen, depth_m, model.diameter_m, !claimed.empty() && claimed[at] != 0);
       verdicts[{u, v}] = verdict;
       ++counts[static_cast<std::size_t>(verdict)];
+      if (verdict == PixelVerdict::kBehindPlane) {
+        ++behind[seen.plane];
+      }
       if (verdict != PixelVerdict::kIn) {
         continue;
       }
+      inverse.add(at, seen.depth_m, depth_m);
       result.explained_px.push_back(static_cast<std::uint32_t>(scene.pixels.index(at)));
       count(in_segments, seen.segment);
       blocks.add({u, v}, (seen.depth_m - depth_m) / depth_deviation_m(depth_m));
@@ -202,6 +278,8 @@ Verification verified(SearchModel const& model, SearchScene const& scene, Camera
                               static_cast<float>(result.shown_px());
   }
   result.block_misfit = blocks.misfit();
+  result.relief = inverse.relief();
+  result.sunk_px = sunk(behind, result.explained_px, scene);
   result.edges_found = edges_found(model, scene, pose);
   result.explained = explained_share(in_segments, scene);
   result.outline_open = open_outline(patch, verdicts, scene);

@@ -36,11 +36,16 @@ struct Verification {
   int background_px = 0;
   int seen_through_px = 0;
   int behind_plane_px = 0;
+  /// Of them, those behind a plane before which the model is, too: it would be sunk into a table.
+  int sunk_px = 0;
   int occluded_px = 0;
   int no_depth_px = 0;
   /// Mean distance, over blocks of 8x8 pixels, of their mean depths, in halves of the sensor's
   /// deviation, each 4 at most: noise averages out, another shape does not.
   float block_misfit = 0.0F;
+  /// How much less the depths stray from the model's than from a plane's, as the logarithm of a
+  /// ratio; 0 for what is flat: a plane fits anything flat.
+  float relief = 0.0F;
   /// Of the segments that it touches, the share that it explains.
   float explained = 0.0F;
   /// Share of its silhouette where the surface goes on beyond it.

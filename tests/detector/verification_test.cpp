@@ -261,6 +261,60 @@ TEST(Verification, ALargePlaneIsNoEvidence) {
     pixel.depth_m = 0.5F;
   });
   EXPECT_EQ(under.behind_plane_px, under.shown_px());
+  EXPECT_EQ(under.sunk_px, 0) << "nothing of it is before the plane";
+}
+
+// A crate 10 cm high on the desk, and one 18 cm high whose top would be at the same place.
+TEST(Verification, NothingIsSunkIntoADesk) {
+  ObjectModel const low = crate({0.16, 0.12, 0.10});
+  std::vector<Placed> things = desk_and_floor();
+  things.push_back({low, placed_at({0, 0, 0}, 0.5)});
+  FramePtr const frame = frame_of(things, before_desk(), {SensorModel::kGaussian});
+  SearchScene const scene = scene_of(*frame);
+  auto const pose_at = [](double z_m) {
+    return camera_pose(before_desk().inverse() * placed_at({0, 0, z_m}, 0.5));
+  };
+  Verification const right = verified(prepare_model(low), scene, pose_at(0.0), {});
+  EXPECT_EQ(right.sunk_px, 0);
+  SearchModel const high = prepare_model(crate({0.16, 0.12, 0.18}));
+  Verification const sunk = verified(high, scene, pose_at(-0.08), {});
+  EXPECT_GT(sunk.sunk_px, sunk.shown_px() / 5);
+  EXPECT_EQ(sunk.sunk_px, sunk.behind_plane_px);
+  EXPECT_LT(sunk.log_odds, right.log_odds - 3.0F);
+}
+
+TEST(Verification, WhatIsPartlyBehindAScreenIsNotSunkIntoIt) {
+  BracketView view = bracket_alone(Eigen::Quaterniond::Identity());
+  Vector3f const centre = view.truth * prepared_bracket().centre_model;
+  int const middle_px = static_cast<int>(std::lround(525.0F * centre.x() / centre.z() + 319.5F));
+  view.scene.planes = {{-Vector3f::UnitZ(), -0.5F, 2.0F, 1}};
+  for (int v = 0; v < view.scene.pixels.height(); ++v) {
+    for (int u = 0; u < middle_px; ++u) {
+      view.scene.pixels[{u, v}].depth_m = 0.5F;
+      view.scene.pixels[{u, v}].plane = 0;
+    }
+  }
+  Verification const v = verified(prepared_bracket(), view.scene, view.truth, {});
+  EXPECT_GT(v.in_px, 0);
+  EXPECT_GT(v.behind_plane_px, 0);
+  EXPECT_EQ(v.sunk_px, 0);
+}
+
+TEST(Verification, ReliefTellsOfShapesAndNotOfPlanes) {
+  ObjectModel const plate{
+      "plate", std::vector<Solid>{BoxSolid{{-0.1, -0.1, 0.0}, {0.1, 0.1, 0.002}}}, {}};
+  // At a slant, where depths differ by far more than they stray.
+  Se3 const pose(Eigen::Quaterniond(Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitX())), {0, 0, 0.9});
+  SearchScene const flat = scene_of(*frame_of({{plate, pose}}, {}, {SensorModel::kGaussian}));
+  Verification const of_plate = verified(prepare_model(plate), flat, camera_pose(pose), {});
+  EXPECT_GT(of_plate.in_px + of_plate.background_px, 1000);
+  EXPECT_LT(of_plate.relief, 0.1F);
+  BracketView const view = bracket_on_desk(0.3, {SensorModel::kGaussian});
+  Verification const right = verified(prepared_bracket(), view.scene, view.truth, {});
+  EXPECT_GT(right.relief, 1.0F);
+  CameraPose const turned =
+      perturbed(prepared_bracket(), view.truth, Vector3f::Zero(), Vector3f(0.0F, 0.0F, 0.5F));
+  EXPECT_LT(verified(prepared_bracket(), view.scene, turned, {}).relief, right.relief - 0.3F);
 }
 
 // A plate before nothing, and in the midst of a surface that goes on around it.
