@@ -11,11 +11,11 @@
 
 #include "stages/fusion/existence.hpp"
 #include "stages/fusion/stuff_findings.hpp"
+#include "stages/fusion/stuff_learning.hpp"
 #include "stages/fusion/stuff_looks.hpp"
 #include "stages/fusion/stuff_model.hpp"
 #include "stages/fusion/stuff_moves.hpp"
 #include "stages/fusion/stuff_one_with.hpp"
-#include "stages/fusion/stuff_split.hpp"
 
 namespace credo {
 namespace {
@@ -48,13 +48,18 @@ public:
         looks_(segmentation.sight, segmentation.T_world_camera, known_.stuff),
         clusters_(clusters_of(segmentation)),
         given_to_(clusters_.size(), -1),
-        news_(known_.stuff.size(), 0.0) {}
+        news_(known_.stuff.size(), 0.0) {
+    for (StuffBelief const& item : known_.stuff) {
+      was_believed_.push_back(item.log_odds > 0.0 ? 1 : 0);
+    }
+  }
 
   FusedStuff run() && {
     associate();
     for (std::size_t i = 0; i < known_.stuff.size(); ++i) {
       update(i);
     }
+    learn();
     move();
     merge();
     for (Part const& part : parts_) {
@@ -158,45 +163,20 @@ private:
     }
     if (matched) {
       ++item.history_count;
-      learn(item, i, labels);
+      found_.push_back({.item = i, .labels = std::move(labels), .news = news_[i]});
     }
     item.most_agreeing =
         std::max(item.most_agreeing, static_cast<double>(seen.counts[PointState::kAgrees]));
   }
 
-  /// The model after a look at which it was found in those clusters.
-  void learn(StuffBelief& item, std::size_t i, std::vector<LabelCode> labels) {
-    StuffModel model = *item.model;
-    count_misses(model, look(i), segmentation_.sight.labels, labels, news_[i]);
-    // Points are as in the look until they are carved.
-    SplitModel parted = split_model(std::move(model), look(i), segmentation_.sight.labels,
-                                    *item.label, labels, news_[i]);
-    for (LabelCode const part : parted.parts) {
-      parts_.push_back({part, item.log_odds});
-      std::erase(labels, part);
-    }
-    model = carved_model(std::move(parted.model));
-    std::size_t pixels = 0;
-    std::vector<Eigen::Vector3f> points_world;
-    for (LabelCode const label : labels) {
-      SeenCluster const& seen = cluster(label);
-      for (std::size_t k = 0; k < seen.blocks.size(); ++k) {
-        std::int32_t const owner = looks_.owners()[seen.blocks[k]];
-        bool const anothers = owner >= 0 && owner != static_cast<std::int32_t>(i) &&
-                              known_.stuff[static_cast<std::size_t>(owner)].log_odds > 0.0;
-        if (!anothers) {
-          points_world.push_back(seen.points_world[k]);
-        }
+  void learn() {
+    learn_of(found_, known_.stuff,
+             {looks_, segmentation_.sight.labels, clusters_, known_.stuff, was_believed_});
+    for (FoundThing const& found : found_) {
+      for (LabelCode const part : found.parts) {
+        parts_.push_back({part, known_.stuff[found.item].log_odds});
       }
-      pixels += seen.pixel_count;
     }
-    set_model(item, fused_model(model, points_world), pixels);
-  }
-
-  void set_model(StuffBelief& item, StuffModel model, std::size_t pixels) {
-    item.recent_clusters = {std::make_shared<StuffCluster const>(
-        cluster_of(model, item.label.value_or(kFirstStuff), pixels))};
-    item.model = std::make_shared<StuffModel const>(std::move(model));
   }
 
   /// Things that have surely gone from where they were, and stand elsewhere.
@@ -386,6 +366,9 @@ private:
   std::vector<std::int32_t> given_to_;
   /// How much of the frame is news about each thing.
   std::vector<double> news_;
+  /// Of each thing, whether it was believed to be there before the frame.
+  std::vector<std::uint8_t> was_believed_;
+  std::vector<FoundThing> found_;
   std::vector<Part> parts_;
 };
 
