@@ -39,10 +39,11 @@ constexpr double kExplained = 0.7;
 class Fusing {
 public:
   Fusing(FusedStuff known, Segmentation const& segmentation, KnownPlaces const& places,
-         FusionConfig const& config)
+         double elapsed_s, FusionConfig const& config)
       : known_(std::move(known)),
         segmentation_(segmentation),
         places_(places),
+        elapsed_s_(elapsed_s),
         config_(config),
         now_{segmentation.stamp_ns, segmentation.T_world_camera.translation()},
         looks_(segmentation.sight, segmentation.T_world_camera, known_.stuff),
@@ -50,7 +51,7 @@ public:
         given_to_(clusters_.size(), -1),
         news_(known_.stuff.size(), 0.0) {
     for (StuffBelief const& item : known_.stuff) {
-      was_believed_.push_back(item.log_odds > 0.0 ? 1 : 0);
+      log_odds_before_.push_back(item.log_odds);
     }
   }
 
@@ -160,10 +161,16 @@ private:
     news_[i] = novelty(view_change(item.last_look, now_), middle, config_.existence);
     if (finding) {
       believe(item, *finding, now_, news_[i], config_.existence);
+    } else if (is_on_its_way(item)) {
+      lose_sight_of(item, elapsed_s_, config_.existence);
     }
     if (matched) {
-      ++item.history_count;
-      found_.push_back({.item = i, .labels = std::move(labels), .news = news_[i]});
+      bool const moved = has_moved(seen.counts);
+      count_look(item, moved);
+      found_.push_back({.item = i,
+                        .labels = std::move(labels),
+                        .news = news_[i],
+                        .is_elsewhere = moved && is_on_its_way(item)});
     }
     item.most_agreeing =
         std::max(item.most_agreeing, static_cast<double>(seen.counts[PointState::kAgrees]));
@@ -171,7 +178,7 @@ private:
 
   void learn() {
     learn_of(found_, known_.stuff,
-             {looks_, segmentation_.sight.labels, clusters_, known_.stuff, was_believed_});
+             {looks_, segmentation_.sight.labels, clusters_, known_.stuff, log_odds_before_});
     for (FoundThing const& found : found_) {
       for (LabelCode const part : found.parts) {
         parts_.push_back({part, known_.stuff[found.item].log_odds});
@@ -179,32 +186,30 @@ private:
     }
   }
 
-  /// Things that have surely gone from where they were, and stand elsewhere.
+  /// Things that have gone from where they were, and stand elsewhere.
   void move() {
-    std::vector<std::size_t> free;
+    std::vector<FreeCluster> free;
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
       if (is_unexplained(c)) {
-        free.push_back(c);
+        free.push_back({c, has_arrived(clusters_[c])});
       }
     }
-    for (Move const& found : moves(known_.stuff, clusters_, free)) {
+    for (Move const& found :
+         moves(known_.stuff, looks_.looks(), clusters_, free, now_.camera_world)) {
       StuffBelief& item = known_.stuff[found.item];
       SeenCluster const& seen = clusters_[found.cluster];
       item.label = static_cast<LabelCode>(kFirstStuff + found.cluster);
       item.evidence = Evidence::kSeen;
       item.verdict = Verdict::kSeen;
-      item.last_look = now_;
+      // That it is not where it was says nothing against it.
+      item.log_odds = log_odds_before_[found.item];
+      item.why.moved = 0.0;
       raise_to(item, log_odds_of_new(seen));
-      ++item.history_count;
+      believe(item, {Verdict::kSeen, 1.0}, now_, news_[found.item], config_.existence);
+      count_look(item, true);
       begin_model(item, seen);
       given_to_[found.cluster] = static_cast<std::int32_t>(found.item);
     }
-  }
-
-  void begin_model(StuffBelief& item, SeenCluster const& seen) {
-    StuffModel model = new_model(seen.points_world, seen.area_m2);
-    item.most_agreeing = static_cast<double>(model.points.size());
-    set_model(item, std::move(model), seen.pixel_count);
   }
 
   /// Large enough for a thing, nobody's, and not what things explain already.
@@ -333,8 +338,13 @@ private:
   }
 
   [[nodiscard]] double log_odds_of_new(SeenCluster const& seen) const {
-    bool const arrived = places_.share_free_before(seen.points_world) > 0.5;
-    return birth_log_odds(seen.thickness_blocks, arrived, config_.births, config_.existence);
+    return birth_log_odds(seen.thickness_blocks, has_arrived(seen), config_.births,
+                          config_.existence);
+  }
+
+  /// Where the frame before saw through.
+  [[nodiscard]] bool has_arrived(SeenCluster const& seen) const {
+    return places_.share_free_before(seen.points_world) > 0.5;
   }
 
   void add(std::size_t c, double log_odds) {
@@ -357,6 +367,7 @@ private:
   FusedStuff known_;
   Segmentation const& segmentation_;
   KnownPlaces const& places_;
+  double elapsed_s_;
   FusionConfig const& config_;
   Look now_;
   StuffLooks looks_;
@@ -366,8 +377,8 @@ private:
   std::vector<std::int32_t> given_to_;
   /// How much of the frame is news about each thing.
   std::vector<double> news_;
-  /// Of each thing, whether it was believed to be there before the frame.
-  std::vector<std::uint8_t> was_believed_;
+  /// Of each thing, before the frame.
+  std::vector<double> log_odds_before_;
   std::vector<FoundThing> found_;
   std::vector<Part> parts_;
 };
@@ -375,8 +386,8 @@ private:
 }  // namespace
 
 FusedStuff fused_items(FusedStuff known, Segmentation const& segmentation,
-                       KnownPlaces const& places, FusionConfig const& config) {
-  return Fusing(std::move(known), segmentation, places, config).run();
+                       KnownPlaces const& places, double elapsed_s, FusionConfig const& config) {
+  return Fusing(std::move(known), segmentation, places, elapsed_s, config).run();
 }
 
 }  // namespace credo

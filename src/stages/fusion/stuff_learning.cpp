@@ -12,15 +12,15 @@
 namespace credo {
 namespace {
 
-/// Whether a block shows another thing that is believed to be there: those before the item in the
-/// belief as after the frame, those behind it as before.
+/// Whether a block shows another thing that is believed to be there: of those before the item in
+/// the belief what is believed after the frame counts, of those behind it what was before.
 bool is_anothers(std::size_t block, std::size_t item, Lesson const& lesson) {
   std::int32_t const owner = lesson.looks.owners()[block];
   if (owner < 0 || owner == static_cast<std::int32_t>(item)) {
     return false;
   }
   auto const other = static_cast<std::size_t>(owner);
-  return other < item ? lesson.stuff[other].log_odds > 0.0 : lesson.was_believed[other] != 0;
+  return (other < item ? lesson.stuff[other].log_odds : lesson.log_odds_before[other]) > 0.0;
 }
 
 /// The points of a cluster that are not another thing's.
@@ -33,7 +33,22 @@ void append_own_points(SeenCluster const& cluster, std::size_t item, Lesson cons
   }
 }
 
+void learn_anew(FoundThing const& found, StuffBelief& item, Lesson const& lesson) {
+  SeenCluster all;
+  for (LabelCode const label : found.labels) {
+    SeenCluster const& cluster = lesson.clusters[label - std::size_t{kFirstStuff}];
+    append_own_points(cluster, found.item, lesson, all.points_world);
+    all.area_m2 += cluster.area_m2;
+    all.pixel_count += cluster.pixel_count;
+  }
+  begin_model(item, all);
+}
+
 void learn(FoundThing& found, StuffBelief& item, Lesson const& lesson) {
+  if (found.is_elsewhere) {
+    learn_anew(found, item, lesson);
+    return;
+  }
   StuffLook const& look = lesson.looks.looks()[found.item];
   StuffModel model = *item.model;
   count_misses(model, look, lesson.shown, found.labels, found.news);
@@ -69,6 +84,12 @@ void set_model(StuffBelief& item, StuffModel model, std::size_t pixel_count) {
   item.recent_clusters = {std::make_shared<StuffCluster const>(
       cluster_of(model, item.label.value_or(kFirstStuff), pixel_count))};
   item.model = std::make_shared<StuffModel const>(std::move(model));
+}
+
+void begin_model(StuffBelief& item, SeenCluster const& seen) {
+  StuffModel model = new_model(seen.points_world, seen.area_m2);
+  item.most_agreeing = static_cast<double>(model.points.size());
+  set_model(item, std::move(model), seen.pixel_count);
 }
 
 }  // namespace credo

@@ -20,6 +20,8 @@ struct FoundThing {
   std::vector<LabelCode> labels;
   /// How much of the frame is news about it.
   double news = 0.0;
+  /// Whether it has moved on since: what was known of its surface is not where it is now.
+  bool is_elsewhere = false;
   /// Filled by learn_of: those of the clusters that showed to be things of their own.
   std::vector<LabelCode> parts = {};
 };
@@ -30,8 +32,8 @@ struct Lesson {
   LabelMap const& shown;
   std::vector<SeenCluster> const& clusters;
   std::vector<StuffBelief> const& stuff;
-  /// Of each thing, whether it was believed to be there before the frame.
-  std::span<std::uint8_t const> was_believed;
+  /// Of each thing, before the frame.
+  std::span<double const> log_odds_before;
 };
 
 /// The models of what was found, after the frame. Each thing's depends on the frame and itself.
@@ -40,5 +42,8 @@ void learn_of(std::vector<FoundThing>& found, std::vector<StuffBelief>& stuff,
 
 /// The item with that model, and what readers of a belief see of it.
 void set_model(StuffBelief& item, StuffModel model, std::size_t pixel_count);
+
+/// The item with the model of what is seen, as if for the first time.
+void begin_model(StuffBelief& item, SeenCluster const& seen);
 
 }  // namespace credo
