@@ -46,7 +46,10 @@ enum RoomKind : std::uint8_t { kWithoutSight, kWithSight };
 /// A belief that is shown one view after the other, at 30 Hz.
 class Room {
 public:
-  explicit Room(RoomKind kind = kWithoutSight) : kind_(kind) {}
+  /// Whatever is seen first is believed with `born`, but what arrives with 0.55 at most.
+  explicit Room(RoomKind kind = kWithoutSight, double born = 0.7) : kind_(kind) {
+    config_.births = {.log_odds = log_odds_of(born), .per_log_thickness = 0.0};
+  }
 
   FusedStuff const& show(View view, int times = 1) {
     for (int k = 0; k < times; ++k) {
@@ -74,16 +77,9 @@ public:
   }
 
 private:
-  /// Whatever is seen first is believed with 0.7.
-  static FusionConfig config_with_equal_births() {
-    FusionConfig config;
-    config.births = {.log_odds = std::log(0.7 / 0.3), .per_log_thickness = 0.0};
-    return config;
-  }
-
   RoomKind kind_;
   BeliefState surroundings_;
-  FusionConfig config_ = config_with_equal_births();
+  FusionConfig config_;
   FusedStuff stuff_;
   std::int64_t frame_ = 0;
 };

@@ -49,10 +49,30 @@ TEST(StuffMoves, WhatComesNearerKeepsItsNameAndHidesNothing) {
 // Without a look at its place before, it might have stood there unseen.
 TEST(StuffMoves, WhatComesIntoViewBeforeWhatIsLikeItIsNotThat) {
   Room room(test::kWithSight);
-  room.show({.boards = {person(0.6, 2.0), person(-0.15, 1.8, kSecond)}, .x_m = kElsewhere_m});
-  room.show({.boards = {person(-0.15, 2.0)}}, 3);
+  room.show({});
+  room.show({.boards = {person(-0.15, 2.0)}});
   // The sight of the frame before is of another place.
   room.show({.x_m = kElsewhere_m});
+  room.show({.boards = {person(-0.15, 1.8)}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+}
+
+// No cluster is taken for it, but most of it still shows.
+TEST(StuffMoves, WhatIsHiddenInPartHasNotGone) {
+  Room room(test::kWithSight);
+  room.show({});
+  room.show({.boards = {person(-0.15, 2.0)}});
+  Board unexplained = person(-0.15, 2.0);
+  unexplained.label.reset();
+  room.show({.boards = {unexplained, person(-0.32, 1.8)}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+}
+
+// However little it is believed.
+TEST(StuffMoves, WhatWasSeenFourTimesHasNotJustCome) {
+  Room room(test::kWithSight, 0.3);
+  room.show({.boards = {person(-0.15, 2.0)}}, 4);
+  ASSERT_LT(probability_of(room.stuff()[0].log_odds), 0.6);
   room.show({.boards = {person(-0.15, 1.8)}});
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
 }
