@@ -181,8 +181,8 @@ def main():
     else:
         print("no osd/ in the recordings (CREDO_DATA): its table is left out", file=sys.stderr)
     if osd and osd.is_dir():
-        page += "\n## Recordings without truth\n\nKnown objects are told of in none. Times on a machine that does " \
-                "nothing else.\n\n" + recording_table(arguments.credo, arguments.recordings, arguments.out)
+        page += "\n## Recordings without truth\n\nKnown objects are told of in none. Times depend on what else the " \
+                "machine does.\n\n" + recording_table(arguments.credo, arguments.recordings, arguments.out)
     print(page)
     if arguments.reliability:
         arguments.reliability.write_text(reliability_picture(rows))
