@@ -59,9 +59,9 @@ bench: deps      ## ours beside PCL's, on the same frames in the same run
 	cmake --build --preset bench
 	@for b in $(BUILD)/bin/*_bench; do $$b || exit 1; done
 
-scores: build    ## every scene simulated, run with both presets and scored: docs/scores.md
+scores: build    ## every scene simulated, run with both presets and scored: docs/scores.md, docs/reliability.svg
 	tools/score_scenes.py $(BUILD)/bin/credo out/scores --markdown docs/scores.md \
-	  --recordings $${CREDO_DATA:-../shared/data}
+	  --reliability docs/reliability.svg --recordings $${CREDO_DATA:-../shared/data}
 
 docs: build      ## config/default.yaml and docs/config.md, as the program prints them
 	$(BUILD)/bin/credo config > config/default.yaml

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Simulates every scene, runs both presets on it, scores them, and prints one table.
 
-score_scenes.py CREDO OUT [--recordings DIR] [--markdown FILE] [--scenes a,b]
+score_scenes.py CREDO OUT [--recordings DIR] [--markdown FILE] [--reliability SVG] [--scenes a,b]
 """
 import argparse
 import json
 import pathlib
 import subprocess
 import sys
+
+from reliability_plot import pooled, reliability_svg
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Scenes whose prior is not called like themselves.
@@ -30,6 +32,9 @@ OSD_PRESETS = {
         ["--set", "segments.join_parts=false", "--set", "segments.raised_quanta=0"],
     "thesis preset": PRESETS["thesis"],
 }
+# Of the recordings, those whose frames follow each other, and single frames.
+DATASETS = ["kitchen", "thermos", "appearing-boxes/cam1", "appearing-boxes/cam2", "frames/grabber",
+            "frames/linemod-cat", "frames/milk", "frames/office"]
 COLUMNS = [
     ("frames", lambda s: s["frames"], "{}"),
     ("WOv %", lambda s: s["segmentation"]["wov"], "{:.1%}"),
@@ -98,6 +103,32 @@ def score_scene(program, scene, out):
     return rows
 
 
+def reliability_picture(rows):
+    """Of all claims of all scenes, a panel for each preset."""
+    of_preset = {preset: [s["existence"]["reliability"] for _, p, s in rows
+                          if p == preset and s["existence"]["ece"] is not None] for preset in PRESETS}
+    return reliability_svg({preset + " preset": pooled(runs) for preset, runs in of_preset.items()})
+
+
+def recording_table(program, folder, out):
+    """What beliefs about recordings come to, which have no truth."""
+    sources = [("oni", path.name, path) for path in sorted(folder.glob("oni/*.oni"))]
+    sources += [("dataset", str(path.relative_to(folder)), path) for name in DATASETS
+                for path in [folder / name] if path.is_dir()]
+    rows = []
+    for kind, name, path in sources:
+        for preset, config in PRESETS.items():
+            run = out / "recordings" / preset / name
+            credo(program, "run", "--source", f"{kind}:{path}", "--no-dds", "--out", run, *config)
+            beliefs = [json.loads(line) for line in (run / "belief.jsonl").open()]
+            fusion = json.loads((run / "metrics.json").read_text())["stages"]["fusion"]
+            rows.append([name, preset, str(len(beliefs)),
+                         str(len({piece["id"] for b in beliefs for piece in b["stuff"]})),
+                         str(len(beliefs[-1]["stuff"])), f'{fusion["p50_ms"]:.1f}'])
+    return table(["recording", "preset", "frames", "ids ever", "things at the end", "fusion, ms a frame (p50)"],
+                 rows)
+
+
 def table(head, rows):
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
@@ -132,6 +163,7 @@ def main():
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--recordings", type=pathlib.Path, help="folder that holds osd/")
     parser.add_argument("--markdown", type=pathlib.Path, help="write the tables to this page too")
+    parser.add_argument("--reliability", type=pathlib.Path, help="write the reliability diagram here")
     parser.add_argument("--scenes", help="names, with commas; all of scenes/ otherwise")
     arguments = parser.parse_args()
     scenes = arguments.scenes.split(",") if arguments.scenes else sorted(
@@ -148,7 +180,12 @@ def main():
                 "compare with care.\n\n" + osd_table(arguments.credo, osd, arguments.out)
     else:
         print("no osd/ in the recordings (CREDO_DATA): its table is left out", file=sys.stderr)
+    if osd and osd.is_dir():
+        page += "\n## Recordings without truth\n\nKnown objects are told of in none. Times depend on what else the " \
+                "machine does.\n\n" + recording_table(arguments.credo, arguments.recordings, arguments.out)
     print(page)
+    if arguments.reliability:
+        arguments.reliability.write_text(reliability_picture(rows))
     if arguments.markdown:
         arguments.markdown.write_text(page)
 

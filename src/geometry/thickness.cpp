@@ -1,7 +1,10 @@
 #include "geometry/thickness.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace credo {
 namespace {
@@ -15,29 +18,32 @@ struct Extent {
 }  // namespace
 
 std::map<LabelCode, double> thickness_px(LabelMap const& labels) {
-  std::map<LabelCode, Extent> extents;
-  auto const differs = [&](Pixel const& beside, LabelCode label) {
-    return labels.contains(beside) && labels[beside] != label;
+  LabelCode const last = labels.empty() ? LabelCode{0} : std::ranges::max(labels);
+  std::vector<Extent> extents(last + std::size_t{1});
+  auto const part = [&](LabelCode one, LabelCode other) {
+    if (one != other) {
+      ++extents[one].sides;
+      ++extents[other].sides;
+    }
   };
   for (int v = 0; v < labels.height(); ++v) {
-    for (int u = 0; u < labels.width(); ++u) {
-      LabelCode const label = labels[{u, v}];
-      if (!is_stuff(label)) {
-        continue;
-      }
-      Extent& extent = extents[label];
-      ++extent.area;
-      for (Pixel const& beside :
-           {Pixel{u - 1, v}, Pixel{u + 1, v}, Pixel{u, v - 1}, Pixel{u, v + 1}}) {
-        extent.sides += differs(beside, label) ? 1 : 0;
-      }
+    std::span<LabelCode const> const row = labels.row(v);
+    std::span<LabelCode const> const below = labels.row(std::min(v + 1, labels.height() - 1));
+    for (std::size_t u = 0; u < row.size(); ++u) {
+      ++extents[row[u]].area;
+      part(row[u], below[u]);
+      part(row[u], row[std::min(u + 1, row.size() - 1)]);
     }
   }
   constexpr double kSidesOfSquare = 4.0;
   std::map<LabelCode, double> thickness;
-  for (auto const& [label, extent] : extents) {
-    thickness[label] = kSidesOfSquare * static_cast<double>(extent.area) /
-                       static_cast<double>(std::max<std::int64_t>(1, extent.sides));
+  for (std::size_t label = kFirstStuff; label <= last; ++label) {
+    Extent const& extent = extents[label];
+    if (extent.area > 0) {
+      thickness[static_cast<LabelCode>(label)] =
+          kSidesOfSquare * static_cast<double>(extent.area) /
+          static_cast<double>(std::max<std::int64_t>(1, extent.sides));
+    }
   }
   return thickness;
 }

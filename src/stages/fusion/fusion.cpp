@@ -49,9 +49,9 @@ BeliefState fuse_in_place(BeliefState prior, Segmentation const& segmentation,
   belief.objects = fused_objects(std::move(belief.objects), segmentation, change, surfaces, config);
   fuse_surroundings(belief, segmentation, config);
   FusedStuff stuff{std::move(belief.stuff), belief.next_stuff_id};
-  stuff = config.visibility
-              ? fused_items(std::move(stuff), segmentation, KnownPlaces(belief, surfaces), config)
-              : fused_stuff(std::move(stuff), segmentation.stuff, change, config);
+  stuff = config.visibility ? fused_items(std::move(stuff), segmentation,
+                                          KnownPlaces(belief, surfaces), change.elapsed_s, config)
+                            : fused_stuff(std::move(stuff), segmentation.stuff, change, config);
   belief.stuff = std::move(stuff.stuff);
   belief.next_stuff_id = stuff.next_id;
   if (config.visibility) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/pose_fusion.hpp"
+#include "stages/fusion/points.hpp"
 
 namespace credo {
 namespace {
@@ -20,6 +21,11 @@ KnownPlaces::KnownPlaces(BeliefState const& belief, KnownSurfaces const& surface
     : camera_world_(belief.T_world_camera.translation()) {
   if (belief.last_sight != nullptr) {
     before_.emplace(belief.last_sight->sight, belief.last_sight->T_world_camera);
+  }
+  if (belief.floor && belief.floor->log_odds > 0.0) {
+    Eigen::Vector3d middle = centroid_of(*belief.floor->points);
+    middle.z() = belief.floor->height_m;
+    floor_world_ = Plane{belief.floor->normal, belief.floor->normal.dot(middle)};
   }
   for (WallBelief const& wall : belief.walls) {
     Eigen::Vector2d const along = wall.segment_end_m - wall.segment_start_m;
@@ -51,7 +57,8 @@ double KnownPlaces::share_known(std::span<Eigen::Vector3f const> points_world,
                                 bool may_be_object) const {
   auto const known = std::ranges::count_if(points_world, [&](Eigen::Vector3f const& point) {
     Eigen::Vector3d const p_world = point.cast<double>();
-    return has_wall_at(p_world) || (may_be_object && has_object_at(p_world));
+    return has_floor_at(p_world) || has_wall_at(p_world) ||
+           (may_be_object && has_object_at(p_world));
   });
   return points_world.empty()
              ? 0.0
@@ -79,6 +86,12 @@ bool KnownPlaces::has_wall_at(Eigen::Vector3d const& p_world) const {
     return std::abs(wall.plane_world.signed_distance_m(p_world)) < tolerance_m &&
            along_m > -kBeyondEnd_m && along_m < wall.length_m + kBeyondEnd_m;
   });
+}
+
+bool KnownPlaces::has_floor_at(Eigen::Vector3d const& p_world) const {
+  constexpr double kThinnest_m = 0.005;
+  double const above_m = floor_world_ ? floor_world_->signed_distance_m(p_world) : kThinnest_m;
+  return above_m < kThinnest_m && above_m > -noise_m(p_world);
 }
 
 bool KnownPlaces::has_object_at(Eigen::Vector3d const& p_world) const {

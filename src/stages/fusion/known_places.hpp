@@ -11,9 +11,9 @@
 
 namespace credo {
 
-/// What was known of places before the frame. Where believed walls and known objects are: what a
-/// frame shows there is nothing new, though no plane was laid through it and no detector found it,
-/// as of a table that reaches into view by a corner.
+/// What was known of places before the frame. Where the believed floor, walls and known objects
+/// are: what a frame shows there is nothing new, though no plane was laid through it and no
+/// detector found it, as of a table that reaches into view by a corner.
 ///
 /// Objects count that the last frame did not find: of one that was found all has been taken out of
 /// the frame already, and what is left beside it may lie on it. And those whose place is known to 2
@@ -26,12 +26,14 @@ public:
   /// Whether a wall is within 1.5 cm + 1.5 mm/m^2 times the squared distance from the camera (a
   /// Kinect's noise), no more than 10 cm beyond its ends.
   [[nodiscard]] bool has_wall_at(Eigen::Vector3d const& p_world) const;
+  /// Whether the floor is as near above it, or no more than 5 mm below: what is thin lies on it.
+  [[nodiscard]] bool has_floor_at(Eigen::Vector3d const& p_world) const;
   /// Whether an object's surface is as near, and two deviations of its place more.
   [[nodiscard]] bool has_object_at(Eigen::Vector3d const& p_world) const;
 
-  /// The part of the points that are at known places. Not `may_be_object`: of walls alone, for what
-  /// lies on something: on a table it is none of that, however flat, but beside a cabinet a wall
-  /// seems to lie on it.
+  /// The part of the points that are at known places. Not `may_be_object`: of floor and walls
+  /// alone, for what lies on something: on a table it is none of that, however flat, but beside a
+  /// cabinet a wall seems to lie on it.
   [[nodiscard]] double share_known(std::span<Eigen::Vector3f const> points_world,
                                    bool may_be_object) const;
   /// Of the points that the last frame told of, the part that it saw through: what stands there now
@@ -56,6 +58,7 @@ private:
 
   Eigen::Vector3d camera_world_;
   std::optional<SightView> before_;
+  std::optional<Plane> floor_world_;
   std::vector<Strip> walls_;
   std::vector<Place> objects_;
 };

@@ -20,14 +20,16 @@ namespace credo {
 /// What a frame says of a point `point_m` along the optical axis: `measured_m` is the depth of the
 /// block that it falls on, `nearest_m` the least around that.
 [[nodiscard]] inline PointState state_of(float point_m, float measured_m, float nearest_m) {
+  using enum PointState;
+  // A table, as nobody can guess which of the states comes next: there are no branches here.
+  constexpr std::array kStates = {kOccluded,   kSeenThrough, kAgrees,     kAgrees,
+                                  kUnmeasured, kUnmeasured,  kUnmeasured, kUnmeasured};
   float const tolerance_m = agreement_m(point_m);
-  if (!(measured_m > 0.0F)) {
-    return PointState::kUnmeasured;
-  }
-  if (measured_m > point_m - tolerance_m && measured_m < point_m + tolerance_m) {
-    return PointState::kAgrees;
-  }
-  return nearest_m > point_m + tolerance_m ? PointState::kSeenThrough : PointState::kOccluded;
+  auto const is_through = static_cast<unsigned>(nearest_m > point_m + tolerance_m);
+  auto const is_near = static_cast<unsigned>(measured_m > point_m - tolerance_m) &
+                       static_cast<unsigned>(measured_m < point_m + tolerance_m);
+  auto const is_unmeasured = static_cast<unsigned>(!(measured_m > 0.0F));
+  return kStates[is_through | is_near << 1U | is_unmeasured << 2U];
 }
 
 /// A frame's blocks, looked at from where its camera stood.

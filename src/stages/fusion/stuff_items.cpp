@@ -11,11 +11,11 @@
 
 #include "stages/fusion/existence.hpp"
 #include "stages/fusion/stuff_findings.hpp"
+#include "stages/fusion/stuff_learning.hpp"
 #include "stages/fusion/stuff_looks.hpp"
 #include "stages/fusion/stuff_model.hpp"
 #include "stages/fusion/stuff_moves.hpp"
 #include "stages/fusion/stuff_one_with.hpp"
-#include "stages/fusion/stuff_split.hpp"
 
 namespace credo {
 namespace {
@@ -39,22 +39,28 @@ constexpr double kExplained = 0.7;
 class Fusing {
 public:
   Fusing(FusedStuff known, Segmentation const& segmentation, KnownPlaces const& places,
-         FusionConfig const& config)
+         double elapsed_s, FusionConfig const& config)
       : known_(std::move(known)),
         segmentation_(segmentation),
         places_(places),
+        elapsed_s_(elapsed_s),
         config_(config),
         now_{segmentation.stamp_ns, segmentation.T_world_camera.translation()},
         looks_(segmentation.sight, segmentation.T_world_camera, known_.stuff),
         clusters_(clusters_of(segmentation)),
         given_to_(clusters_.size(), -1),
-        news_(known_.stuff.size(), 0.0) {}
+        news_(known_.stuff.size(), 0.0) {
+    for (StuffBelief const& item : known_.stuff) {
+      log_odds_before_.push_back(item.log_odds);
+    }
+  }
 
   FusedStuff run() && {
     associate();
     for (std::size_t i = 0; i < known_.stuff.size(); ++i) {
       update(i);
     }
+    learn();
     move();
     merge();
     for (Part const& part : parts_) {
@@ -155,76 +161,55 @@ private:
     news_[i] = novelty(view_change(item.last_look, now_), middle, config_.existence);
     if (finding) {
       believe(item, *finding, now_, news_[i], config_.existence);
+    } else if (is_on_its_way(item)) {
+      lose_sight_of(item, elapsed_s_, config_.existence);
     }
     if (matched) {
-      ++item.history_count;
-      learn(item, i, labels);
+      bool const moved = has_moved(seen.counts);
+      count_look(item, moved);
+      found_.push_back({.item = i,
+                        .labels = std::move(labels),
+                        .news = news_[i],
+                        .is_elsewhere = moved && is_on_its_way(item)});
     }
     item.most_agreeing =
         std::max(item.most_agreeing, static_cast<double>(seen.counts[PointState::kAgrees]));
   }
 
-  /// The model after a look at which it was found in those clusters.
-  void learn(StuffBelief& item, std::size_t i, std::vector<LabelCode> labels) {
-    StuffModel model = *item.model;
-    count_misses(model, look(i), segmentation_.sight.labels, labels, news_[i]);
-    // Points are as in the look until they are carved.
-    SplitModel parted = split_model(std::move(model), look(i), segmentation_.sight.labels,
-                                    *item.label, labels, news_[i]);
-    for (LabelCode const part : parted.parts) {
-      parts_.push_back({part, item.log_odds});
-      std::erase(labels, part);
-    }
-    model = carved_model(std::move(parted.model));
-    std::size_t pixels = 0;
-    std::vector<Eigen::Vector3f> points_world;
-    for (LabelCode const label : labels) {
-      SeenCluster const& seen = cluster(label);
-      for (std::size_t k = 0; k < seen.blocks.size(); ++k) {
-        std::int32_t const owner = looks_.owners()[seen.blocks[k]];
-        bool const anothers = owner >= 0 && owner != static_cast<std::int32_t>(i) &&
-                              known_.stuff[static_cast<std::size_t>(owner)].log_odds > 0.0;
-        if (!anothers) {
-          points_world.push_back(seen.points_world[k]);
-        }
+  void learn() {
+    learn_of(found_, known_.stuff,
+             {looks_, segmentation_.sight.labels, clusters_, known_.stuff, log_odds_before_});
+    for (FoundThing const& found : found_) {
+      for (LabelCode const part : found.parts) {
+        parts_.push_back({part, known_.stuff[found.item].log_odds});
       }
-      pixels += seen.pixel_count;
     }
-    set_model(item, fused_model(model, points_world), pixels);
   }
 
-  void set_model(StuffBelief& item, StuffModel model, std::size_t pixels) {
-    item.recent_clusters = {std::make_shared<StuffCluster const>(
-        cluster_of(model, item.label.value_or(kFirstStuff), pixels))};
-    item.model = std::make_shared<StuffModel const>(std::move(model));
-  }
-
-  /// Things that have surely gone from where they were, and stand elsewhere.
+  /// Things that have gone from where they were, and stand elsewhere.
   void move() {
-    std::vector<std::size_t> free;
+    std::vector<FreeCluster> free;
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
       if (is_unexplained(c)) {
-        free.push_back(c);
+        free.push_back({c, has_arrived(clusters_[c])});
       }
     }
-    for (Move const& found : moves(known_.stuff, clusters_, free)) {
+    for (Move const& found :
+         moves(known_.stuff, looks_.looks(), clusters_, free, now_.camera_world)) {
       StuffBelief& item = known_.stuff[found.item];
       SeenCluster const& seen = clusters_[found.cluster];
       item.label = static_cast<LabelCode>(kFirstStuff + found.cluster);
       item.evidence = Evidence::kSeen;
       item.verdict = Verdict::kSeen;
-      item.last_look = now_;
+      // That it is not where it was says nothing against it.
+      item.log_odds = log_odds_before_[found.item];
+      item.why.moved = 0.0;
       raise_to(item, log_odds_of_new(seen));
-      ++item.history_count;
+      believe(item, {Verdict::kSeen, 1.0}, now_, news_[found.item], config_.existence);
+      count_look(item, true);
       begin_model(item, seen);
       given_to_[found.cluster] = static_cast<std::int32_t>(found.item);
     }
-  }
-
-  void begin_model(StuffBelief& item, SeenCluster const& seen) {
-    StuffModel model = new_model(seen.points_world, seen.area_m2);
-    item.most_agreeing = static_cast<double>(model.points.size());
-    set_model(item, std::move(model), seen.pixel_count);
   }
 
   /// Large enough for a thing, nobody's, and not what things explain already.
@@ -353,8 +338,13 @@ private:
   }
 
   [[nodiscard]] double log_odds_of_new(SeenCluster const& seen) const {
-    bool const arrived = places_.share_free_before(seen.points_world) > 0.5;
-    return birth_log_odds(seen.thickness_blocks, arrived, config_.births, config_.existence);
+    return birth_log_odds(seen.thickness_blocks, has_arrived(seen), config_.births,
+                          config_.existence);
+  }
+
+  /// Where the frame before saw through.
+  [[nodiscard]] bool has_arrived(SeenCluster const& seen) const {
+    return places_.share_free_before(seen.points_world) > 0.5;
   }
 
   void add(std::size_t c, double log_odds) {
@@ -377,6 +367,7 @@ private:
   FusedStuff known_;
   Segmentation const& segmentation_;
   KnownPlaces const& places_;
+  double elapsed_s_;
   FusionConfig const& config_;
   Look now_;
   StuffLooks looks_;
@@ -386,14 +377,17 @@ private:
   std::vector<std::int32_t> given_to_;
   /// How much of the frame is news about each thing.
   std::vector<double> news_;
+  /// Of each thing, before the frame.
+  std::vector<double> log_odds_before_;
+  std::vector<FoundThing> found_;
   std::vector<Part> parts_;
 };
 
 }  // namespace
 
 FusedStuff fused_items(FusedStuff known, Segmentation const& segmentation,
-                       KnownPlaces const& places, FusionConfig const& config) {
-  return Fusing(std::move(known), segmentation, places, config).run();
+                       KnownPlaces const& places, double elapsed_s, FusionConfig const& config) {
+  return Fusing(std::move(known), segmentation, places, elapsed_s, config).run();
 }
 
 }  // namespace credo

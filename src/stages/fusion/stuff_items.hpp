@@ -17,8 +17,12 @@ namespace credo {
 /// other count once (novelty). Clusters at known places are no new things, unless they lie on
 /// another.
 ///
+/// What was on its way when it was last seen is less and less likely to be there still, `elapsed_s`
+/// after the frame before.
+///
 /// Wants segmentation.sight; without one nothing is seen, and nothing changes.
 [[nodiscard]] FusedStuff fused_items(FusedStuff known, Segmentation const& segmentation,
-                                     KnownPlaces const& places, FusionConfig const& config);
+                                     KnownPlaces const& places, double elapsed_s,
+                                     FusionConfig const& config);
 
 }  // namespace credo

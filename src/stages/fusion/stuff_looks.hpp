@@ -34,6 +34,7 @@ struct ClusterShare {
 
 /// What a frame says of one thing.
 struct StuffLook {
+  /// Of the model's, in its order; none where all of it is out of view.
   std::vector<PointLook> points;
   PointCounts counts;
   /// Blocks that agree, each once.
@@ -65,10 +66,14 @@ private:
     /// Of the thing that is looked at; places in its shares by label, -1 where there is none.
     std::vector<std::int32_t> share_of_label;
     std::vector<Claim> claims;
+    /// Of its points, along the optical axis.
+    std::vector<float> depths_m;
   };
 
   /// Claims are left on the desk.
   [[nodiscard]] StuffLook look_at(StuffBelief const& thing, std::int32_t item, Desk& desk) const;
+  /// The clusters on which the points of a look fall.
+  void share_out(float spacing_m, std::int32_t item, StuffLook& look, Desk& desk) const;
   void mark_around(Pixel block, float point_m, float spacing_m, std::int32_t item, StuffLook& look,
                    Desk& desk) const;
 

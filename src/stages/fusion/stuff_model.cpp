@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
+#include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -20,30 +21,53 @@ constexpr float kMissedTooOften = 2.0F;
 std::uint64_t cell_of(Eigen::Vector3f const& point, float spacing_m) {
   constexpr float kLast = (1 << 20) - 1;
   auto const along = [&](float coordinate_m) {
-    float const cell = std::clamp(std::floor(coordinate_m / spacing_m), -kLast - 1.0F, kLast);
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(cell) + (1 << 20));
+    float const place = std::clamp(coordinate_m / spacing_m, -kLast - 1.0F, kLast);
+    auto const towards_zero = static_cast<std::int32_t>(place);
+    // std::floor is a call where the processor is not told to have it.
+    std::int32_t const cell = towards_zero - (static_cast<float>(towards_zero) > place ? 1 : 0);
+    return static_cast<std::uint64_t>(cell + (1 << 20));
   };
   return (along(point.x()) << 42U) | (along(point.y()) << 21U) | along(point.z());
 }
 
-/// Points of one cell become their mean, one point that weighs as much as the heaviest of them.
-StuffModel thinned(std::span<SurfacePoint const> points, float spacing_m) {
-  struct Place {
-    std::uint64_t cell;
-    std::uint32_t point;
-    auto operator<=>(Place const&) const = default;
-  };
-  std::vector<Place> places;
-  places.reserve(points.size());
-  for (SurfacePoint const& point : points) {
-    places.push_back(
-        {cell_of(point.p_world, spacing_m), static_cast<std::uint32_t>(places.size())});
+/// A point, by its place in a list, and its cell.
+struct Place {
+  std::uint64_t cell = 0;
+  std::size_t point = 0;
+};
+
+Eigen::Vector3f const& position_of(Eigen::Vector3f const& point) {
+  return point;
+}
+Eigen::Vector3f const& position_of(SurfacePoint const& point) {
+  return point.p_world;
+}
+
+/// By ascending cell; those of one cell as they were listed.
+template <typename Point>
+std::vector<Place> by_cell(std::span<Point const> points, float spacing_m) {
+  std::vector<Place> places(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    places[i] = {cell_of(position_of(points[i]), spacing_m), i};
   }
-  std::ranges::sort(places);
+  std::ranges::sort(places, [](Place const& a, Place const& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.point < b.point;
+  });
+  return places;
+}
+
+StuffModel with_room_for(std::size_t points, float spacing_m) {
   StuffModel model;
   model.spacing_m = spacing_m;
-  model.cells.reserve(places.size());
-  model.points.reserve(places.size());
+  model.cells.reserve(points);
+  model.points.reserve(points);
+  return model;
+}
+
+/// Points of one cell become their mean, one point that weighs as much as the heaviest of them.
+StuffModel thinned(std::span<SurfacePoint const> points, float spacing_m) {
+  std::vector<Place> const places = by_cell(points, spacing_m);
+  StuffModel model = with_room_for(points.size(), spacing_m);
   for (std::size_t i = 0; i < places.size();) {
     std::size_t const begin = i;
     SurfacePoint mean = points[places[begin].point];
@@ -61,13 +85,20 @@ StuffModel thinned(std::span<SurfacePoint const> points, float spacing_m) {
   return model;
 }
 
+/// The same for points that are seen for the first time.
 StuffModel of_points(std::span<Eigen::Vector3f const> points_world, float spacing_m) {
-  std::vector<SurfacePoint> points;
-  points.reserve(points_world.size());
-  for (Eigen::Vector3f const& point : points_world) {
-    points.push_back({.p_world = point});
+  std::vector<Place> const places = by_cell(points_world, spacing_m);
+  StuffModel model = with_room_for(points_world.size(), spacing_m);
+  for (std::size_t i = 0; i < places.size();) {
+    std::size_t const begin = i;
+    Eigen::Vector3f sum = points_world[places[begin].point];
+    for (++i; i < places.size() && places[i].cell == places[begin].cell; ++i) {
+      sum += points_world[places[i].point];
+    }
+    model.cells.push_back(places[begin].cell);
+    model.points.push_back({.p_world = sum / static_cast<float>(i - begin)});
   }
-  return thinned(points, spacing_m);
+  return model;
 }
 
 StuffModel within_limit(StuffModel model) {
@@ -93,10 +124,7 @@ StuffModel new_model(std::span<Eigen::Vector3f const> points_world, double area_
 
 StuffModel fused_model(StuffModel const& model, std::span<Eigen::Vector3f const> points_world) {
   StuffModel const seen = of_points(points_world, model.spacing_m);
-  StuffModel both;
-  both.spacing_m = model.spacing_m;
-  both.cells.reserve(model.cells.size() + seen.cells.size());
-  both.points.reserve(model.cells.size() + seen.cells.size());
+  StuffModel both = with_room_for(model.cells.size() + seen.cells.size(), model.spacing_m);
   std::size_t i = 0;
   std::size_t j = 0;
   while (i < model.cells.size() || j < seen.cells.size()) {
@@ -152,6 +180,7 @@ StuffCluster cluster_of(StuffModel const& model, LabelCode label, std::size_t pi
   cluster.label = label;
   cluster.pixel_count = pixel_count;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  cluster.points_world.reserve(model.points.size());
   for (SurfacePoint const& point : model.points) {
     cluster.points_world.push_back(point.p_world);
     cluster.bounds_world.extend(point.p_world);

@@ -8,6 +8,8 @@
 
 #include "geometry/icp.hpp"
 #include "geometry/thickness.hpp"
+#include "stages/fusion/existence.hpp"
+#include "stages/fusion/stuff_one_with.hpp"
 
 namespace credo {
 namespace {
@@ -16,9 +18,52 @@ constexpr double kFarthest_m = 0.5;
 constexpr double kMostSizeRatio = 1.5;
 constexpr std::size_t kMostIcpPoints = 200;
 constexpr int kIcpSteps = 5;
-// The RMS after ICP: of the sensor's noise, and of the thing's size.
+// The RMS after ICP: of the sensor's noise, which grows with the squared distance, and of the
+// thing's size.
 constexpr double kLeastRms_m = 0.012;
+constexpr double kRmsPerSquareMetre = 0.0015;
 constexpr double kShareOfSize = 0.2;
+// Of a thing that moves more may come into view from one frame to the next.
+constexpr float kMostGrowth = 4.0F;
+// A thing makes way for a cluster where so much of what is measured of it is hidden by that, or
+// seen through.
+constexpr double kMakesWay = 0.6;
+constexpr int kLeastMeasured = 8;
+// It is on its way where it moved at so many of its looks, of four at the least.
+constexpr double kMovesOften = 0.3;
+constexpr std::size_t kFewestLooks = 4;
+constexpr std::size_t kLooksRemembered = 36;
+// A thing has moved where so much of what the frame tells of it is seen through.
+constexpr double kMostThroughSeen = 0.35;
+// What has just come is not believed more.
+constexpr double kHardlyBelieved = 0.6;
+constexpr double kTimeOnItsWay_s = 0.5;
+
+bool moves_often(StuffBelief const& item) {
+  auto const entry = std::ranges::find(item.one_with, kItsWay, &OneWith::id);
+  return entry != item.one_with.end() && entry->evidence > kMovesOften;
+}
+
+/// Whether it arrived itself (BirthConfig::arrived_probability), a few looks ago.
+bool has_just_come(StuffBelief const& item) {
+  return item.history_count < kFewestLooks && probability_of(item.log_odds) < kHardlyBelieved;
+}
+
+/// Whether a thing has left its place to a cluster that has come there: what it should show is
+/// hidden by that, or seen through.
+bool makes_way_for(StuffBelief const& item, StuffLook const& look, FreeCluster const& free) {
+  if (!free.arrived || !(moves_often(item) || has_just_come(item))) {
+    return false;
+  }
+  auto const label = static_cast<LabelCode>(kFirstStuff + free.cluster);
+  auto const share = std::ranges::find(look.shares, label, &ClusterShare::label);
+  int const hidden = share == look.shares.end() ? 0 : share->hidden;
+  int const through = look.counts[PointState::kSeenThrough];
+  int const measured =
+      through + look.counts[PointState::kAgrees] + look.counts[PointState::kOccluded];
+  return (hidden > 0 || moves_often(item)) && measured >= kLeastMeasured &&
+         hidden + through > kMakesWay * measured;
+}
 
 std::vector<Eigen::Vector3f> centred(std::span<Eigen::Vector3f const> points,
                                      Eigen::Vector3f const& centre) {
@@ -53,7 +98,8 @@ Eigen::Vector3f extents_of(std::span<Eigen::Vector3f const> points) {
 }
 
 /// RMS distance of the cluster from the thing's shape, once laid on it; none where they differ.
-std::optional<double> fit_of(StuffBelief const& item, SeenCluster const& cluster) {
+std::optional<double> fit_of(StuffBelief const& item, SeenCluster const& cluster,
+                             Eigen::Vector3d const& camera_world) {
   std::vector<Eigen::Vector3f> const& known = item.latest().points_world;
   Eigen::Vector3f const from = mean_of(known);
   Eigen::Vector3f const to = mean_of(cluster.points_world);
@@ -70,9 +116,21 @@ std::optional<double> fit_of(StuffBelief const& item, SeenCluster const& cluster
   }
   IcpConfig config;
   config.max_iterations = kIcpSteps;
-  config.max_rms_m = std::min(kLeastRms_m, kShareOfSize * static_cast<double>(a.z()));
+  double const noise_m = kRmsPerSquareMetre * (to.cast<double>() - camera_world).squaredNorm();
+  config.max_rms_m =
+      std::min(std::max(kLeastRms_m, noise_m), kShareOfSize * static_cast<double>(a.z()));
   auto const fit = align_icp(centred(cluster.points_world, to), centred(known, from), config);
   return fit ? std::optional(fit->rms_m) : std::nullopt;
+}
+
+/// How far it would have come; none where that is too far, or the two are not nearly as large.
+std::optional<double> way_to(StuffBelief const& item, SeenCluster const& cluster) {
+  std::vector<Eigen::Vector3f> const& known = item.latest().points_world;
+  // As a list, for its elements are copied.
+  auto const [less, more] =
+      std::minmax({extents_of(known).z(), extents_of(cluster.points_world).z()});
+  auto const way_m = static_cast<double>((mean_of(known) - mean_of(cluster.points_world)).norm());
+  return way_m > kFarthest_m || more > kMostGrowth * less ? std::nullopt : std::optional(way_m);
 }
 
 }  // namespace
@@ -117,25 +175,32 @@ std::vector<SeenCluster> clusters_of(Segmentation const& segmentation) {
   return clusters;
 }
 
-std::vector<Move> moves(std::vector<StuffBelief> const& stuff,
-                        std::vector<SeenCluster> const& clusters,
-                        std::span<std::size_t const> free) {
+std::vector<Move> moves(std::vector<StuffBelief> const& stuff, std::vector<StuffLook> const& looks,
+                        std::vector<SeenCluster> const& clusters, std::span<FreeCluster const> free,
+                        Eigen::Vector3d const& camera_world) {
   struct Candidate {
-    double rms_m;
+    double misfit_m;
     Move move;
   };
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < stuff.size(); ++i) {
-    if (stuff[i].verdict != Verdict::kSurelyGone || stuff[i].label) {
+    if (stuff[i].label || stuff[i].model == nullptr) {
       continue;
     }
-    for (std::size_t const c : free) {
-      if (std::optional<double> const rms_m = fit_of(stuff[i], clusters[c])) {
-        candidates.push_back({*rms_m, {i, c}});
+    for (FreeCluster const& place : free) {
+      SeenCluster const& cluster = clusters[place.cluster];
+      std::optional<double> misfit_m = stuff[i].verdict == Verdict::kSurelyGone
+                                           ? fit_of(stuff[i], cluster, camera_world)
+                                           : std::nullopt;
+      if (!misfit_m && makes_way_for(stuff[i], looks[i], place)) {
+        misfit_m = way_to(stuff[i], cluster);
+      }
+      if (misfit_m) {
+        candidates.push_back({*misfit_m, {i, place.cluster}});
       }
     }
   }
-  std::ranges::stable_sort(candidates, {}, &Candidate::rms_m);
+  std::ranges::stable_sort(candidates, {}, &Candidate::misfit_m);
   std::vector<Move> found;
   for (Candidate const& candidate : candidates) {
     bool const taken = std::ranges::any_of(found, [&](Move const& other) {
@@ -146,6 +211,34 @@ std::vector<Move> moves(std::vector<StuffBelief> const& stuff,
     }
   }
   return found;
+}
+
+bool has_moved(PointCounts const& look) {
+  int const through = look[PointState::kSeenThrough];
+  return through > kMostThroughSeen * (through + look[PointState::kAgrees]);
+}
+
+void count_look(StuffBelief& item, bool moved) {
+  ++item.history_count;
+  auto entry = std::ranges::find(item.one_with, kItsWay, &OneWith::id);
+  if (entry == item.one_with.end()) {
+    if (!moved) {
+      return;
+    }
+    entry = item.one_with.insert(item.one_with.end(), OneWith{kItsWay, 0.0});
+  }
+  auto const looks = static_cast<double>(std::min(item.history_count, kLooksRemembered));
+  entry->evidence += ((moved ? 1.0 : 0.0) - entry->evidence) / looks;
+}
+
+bool is_on_its_way(StuffBelief const& item) {
+  return item.history_count >= kFewestLooks && moves_often(item);
+}
+
+void lose_sight_of(StuffBelief& item, double elapsed_s, ExistenceConfig const& config) {
+  double const stayed = std::exp(-elapsed_s / kTimeOnItsWay_s);
+  double const left = log_odds_of(probability_of(item.log_odds) * stayed);
+  add_step(item.log_odds, left - item.log_odds, item.why, config);
 }
 
 }  // namespace credo

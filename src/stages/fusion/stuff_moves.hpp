@@ -7,6 +7,8 @@
 
 #include "core/belief.hpp"
 #include "core/segmentation.hpp"
+#include "stages/fusion/fusion.hpp"
+#include "stages/fusion/stuff_looks.hpp"
 
 namespace credo {
 
@@ -27,16 +29,42 @@ struct SeenCluster {
 /// By label, from kFirstStuff on. Empty where there is no sight.
 [[nodiscard]] std::vector<SeenCluster> clusters_of(Segmentation const& segmentation);
 
+/// A cluster that is nothing known. `arrived`: the frame before saw through where it is now.
+struct FreeCluster {
+  std::size_t cluster = 0;
+  bool arrived = false;
+};
+
 /// A thing that stands elsewhere now.
 struct Move {
   std::size_t item = 0;
   std::size_t cluster = 0;
 };
 
-/// Things that have surely gone, and which of the clusters `free` each now is: near by, as large,
-/// and of the same shape after ICP; each the other's best.
+/// Things that stand elsewhere now, and which of the clusters `free` each is; each the other's
+/// best. Those that have surely gone: what is near by, as large, and of the same shape after ICP.
+/// Those that moved before, or have just come, whose place a cluster that arrived hides,
+/// or that are seen through: what is near by, and nearly as large. `looks` are at `stuff`, in its
+/// order.
 [[nodiscard]] std::vector<Move> moves(std::vector<StuffBelief> const& stuff,
+                                      std::vector<StuffLook> const& looks,
                                       std::vector<SeenCluster> const& clusters,
-                                      std::span<std::size_t const> free);
+                                      std::span<FreeCluster const> free,
+                                      Eigen::Vector3d const& camera_world);
+
+/// Whether a look that shows a thing says by its points that it stands elsewhere than at the one
+/// before.
+[[nodiscard]] bool has_moved(PointCounts const& look);
+
+/// One more look that showed the thing, and whether it had moved since the one before.
+void count_look(StuffBelief& item, bool moved);
+
+/// Whether a thing was on its way when it was last seen: it had moved at 3 of 10 of its last looks,
+/// of which four to 36 count.
+[[nodiscard]] bool is_on_its_way(StuffBelief const& item);
+
+/// What was on its way and of which a frame tells nothing is less and less likely to be where it
+/// was seen: the probability falls by the factor e in half a second.
+void lose_sight_of(StuffBelief& item, double elapsed_s, ExistenceConfig const& config);
 
 }  // namespace credo

@@ -49,6 +49,28 @@ TEST(KnownPlaces, OnlyBelievedWallsCount) {
   EXPECT_FALSE(KnownPlaces(belief, {}).has_wall_at({0, 2, 0.5})) << "without length";
 }
 
+// A centimetre high at x = 0; the camera stands 1 m above that, and looks at it from there.
+TEST(KnownPlaces, TheFloorIsWhatIsUpTo5MmAboveItAndNotFarBelow) {
+  BeliefState belief;
+  belief.T_world_camera = Se3(Eigen::Quaterniond::Identity(), {0, 0, 1.01});
+  FloorBelief& floor = belief.floor.emplace();
+  floor.normal = Eigen::Vector3d(-0.1, 0, 1).normalized();
+  floor.height_m = 0.11;
+  floor.points = std::make_shared<PointList const>(PointList{{1, 0, 0.11F}});
+  floor.log_odds = 1.0;
+  KnownPlaces const places(belief, {});
+  EXPECT_TRUE(places.has_floor_at({0, 0, 0.014}));
+  EXPECT_FALSE(places.has_floor_at({0, 0, 0.016}));
+  EXPECT_TRUE(places.has_floor_at({1, 0, 0.11}));
+  EXPECT_TRUE(places.has_floor_at({0, 0, -0.005}));
+  EXPECT_FALSE(places.has_floor_at({0, 0, -0.01})) << "below the floor is another room";
+  EXPECT_EQ(places.share_known(std::vector<Eigen::Vector3f>{{0, 0, 0.01F}, {0, 0, 0.2F}}, false),
+            0.5);
+  belief.floor->log_odds = -0.1;
+  EXPECT_FALSE(KnownPlaces(belief, {}).has_floor_at({0, 0, 0.01})) << "not believed";
+  EXPECT_FALSE(KnownPlaces({}, {}).has_floor_at({0, 0, 0})) << "none";
+}
+
 KnownSurfaces const& surfaces() {
   static KnownSurfaces const known = known_surfaces(
       {{"box", {"box", std::vector<Solid>{BoxSolid{{-0.1, -0.1, 0.0}, {0.1, 0.1, 0.1}}}, {}}}});

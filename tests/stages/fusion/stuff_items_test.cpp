@@ -46,7 +46,7 @@ TEST(StuffItems, WhatIsSeenFirstIsBelievedAtOnce) {
 TEST(StuffItems, SliversAreBelievedLessAtFirst) {
   auto const seen_first = [](double width_m) {
     Segmentation const frame = test::segmentation_of({.boards = {{kFirst, 0, 0, width_m, 0.4}}});
-    return fused_items({}, frame, KnownPlaces({}, {}), {}).stuff.at(0).log_odds;
+    return fused_items({}, frame, KnownPlaces({}, {}), 0.0, {}).stuff.at(0).log_odds;
   };
   BirthConfig const births;
   // 2 and 20 by 40 pixels of a centimetre: 4 area / outline.
@@ -303,7 +303,7 @@ TEST(StuffItems, WithoutASightNothingChanges) {
   FusedStuff const before = room.show({.boards = {{kFirst}}}, 3);
   Segmentation frame = test::segmentation_of({.boards = {{kFirst}}});
   frame.sight = {};
-  FusedStuff const after = fused_items(before, frame, KnownPlaces({}, {}), {});
+  FusedStuff const after = fused_items(before, frame, KnownPlaces({}, {}), 0.0, {});
   ASSERT_EQ(after.stuff.size(), 1U);
   EXPECT_EQ(bits(after.stuff[0].log_odds), bits(before.stuff[0].log_odds));
 }

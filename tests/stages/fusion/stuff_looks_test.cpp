@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "stages/fusion/sight_view.hpp"
 #include "stages/fusion/stuff_model.hpp"
 #include "stages/fusion/table_views.hpp"
 
@@ -36,6 +38,34 @@ StuffBelief square(double left_m, double z_m) {
 StuffLook look(View const& view, StuffBelief const& item) {
   Segmentation const frame = test::segmentation_of(view);
   return StuffLooks(frame.sight, frame.T_world_camera, {item}).looks()[0];
+}
+
+/// The table of docs/belief.md, case by case.
+PointState plain_state_of(float point_m, float measured_m, float nearest_m) {
+  float const tolerance_m = 0.01F + 0.01F * point_m;
+  if (!(measured_m > 0.0F)) {
+    return PointState::kUnmeasured;
+  }
+  if (measured_m > point_m - tolerance_m && measured_m < point_m + tolerance_m) {
+    return PointState::kAgrees;
+  }
+  return nearest_m > point_m + tolerance_m ? PointState::kSeenThrough : PointState::kOccluded;
+}
+
+TEST(StuffLooks, ThePlainRuleSaysTheSameOfAPoint) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  std::vector<float> const depths_m = {-1.0F, 0.0F, 0.5F,  0.97F, 0.98F, 1.0F, 1.02F, 1.03F,
+                                       2.96F, 3.0F, 3.04F, 3.05F, 5.0F,  9.0F, kNan,  kInfinity};
+  for (float const point_m : {0.5F, 1.0F, 3.0F}) {
+    for (float const measured_m : depths_m) {
+      for (float const nearest_m : depths_m) {
+        EXPECT_EQ(state_of(point_m, measured_m, nearest_m),
+                  plain_state_of(point_m, measured_m, nearest_m))
+            << point_m << " " << measured_m << " " << nearest_m;
+      }
+    }
+  }
 }
 
 TEST(StuffLooks, WhatIsThereAgrees) {
