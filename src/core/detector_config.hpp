@@ -54,7 +54,7 @@ enum class ObjectSearch : std::uint8_t {
 struct BpaConfig {
   ObjectSearch search = ObjectSearch::kBoth;
   /// A pose less likely right than this is no detection.
-  double min_probability = 0.16;
+  double min_probability = 0.25;
   /// An object that is not found where it is expected is looked for everywhere once in so many
   /// frames.
   int global_every_frames = 10;

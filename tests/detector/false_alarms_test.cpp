@@ -23,7 +23,7 @@ TEST(FalseAlarms, AreRareOnTableTopsWithoutTheObjects) {
   std::vector<DetectionRequest> requests;
   PoseDistribution const anywhere{Se3(Eigen::Quaterniond::Identity(), {0, 0, 1}),
                                   100.0 * Matrix6d::Identity()};
-  for (ObjectModel& model : read_bop_models(recordings() / "objects/lmo", "lmo_")) {
+  for (ObjectModel& model : read_bop_models(recordings() / "objects/lmo", "lmo")) {
     requests.push_back({model.name, model.name, anywhere});
     models.emplace(model.name, std::move(model));
   }
