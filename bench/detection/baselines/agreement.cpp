@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
 namespace credo {
@@ -16,17 +15,22 @@ struct Projected {
   Pixel pixel;
   std::size_t block = 0;
   float z = 0.0F;
+  /// Cosine between its normal and the ray.
+  float facing = 0.0F;
 };
 
 /// The points that a camera could see of the model alone.
 std::vector<Projected> seen_alone(NormalCloud const& model, Eigen::Isometry3f const& pose,
                                   SceneCloud const& scene) {
   std::vector<Projected> points;
-  std::map<std::size_t, float> nearest;
   int const blocks_wide = (scene.depth_m.width() + kBlock_px - 1) / kBlock_px;
+  int const blocks_high = (scene.depth_m.height() + kBlock_px - 1) / kBlock_px;
+  std::vector<float> nearest(static_cast<std::size_t>(blocks_wide * blocks_high),
+                             std::numeric_limits<float>::infinity());
   for (pcl::PointNormal const& point : model) {
     Eigen::Vector3f const p = pose * point.getVector3fMap();
-    if (p.z() < 0.1F || (pose.linear() * point.getNormalVector3fMap()).dot(p) > -0.1F * p.norm()) {
+    float const facing = -(pose.linear() * point.getNormalVector3fMap()).dot(p) / p.norm();
+    if (p.z() < 0.1F || facing < 0.1F) {
       continue;
     }
     auto const& camera = scene.intrinsics;
@@ -37,12 +41,11 @@ std::vector<Projected> seen_alone(NormalCloud const& model, Eigen::Isometry3f co
     }
     auto const block =
         static_cast<std::size_t>(pixel.v / kBlock_px * blocks_wide + pixel.u / kBlock_px);
-    points.push_back({pixel, block, p.z()});
-    float& least = nearest.try_emplace(block, p.z()).first->second;
-    least = std::min(least, p.z());
+    points.push_back({pixel, block, p.z(), facing});
+    nearest[block] = std::min(nearest[block], p.z());
   }
   std::erase_if(points, [&](Projected const& point) {
-    return point.z > nearest.at(point.block) + kSelfHidden_m;
+    return point.z > nearest[point.block] + kSelfHidden_m;
   });
   return points;
 }
@@ -55,7 +58,7 @@ double Agreement::score() const {
 }
 
 Agreement agreement(NormalCloud const& model, Eigen::Isometry3f const& pose_camera,
-                    SceneCloud const& scene) {
+                    SceneCloud const& scene, float slack_m) {
   Agreement result;
   double known = 0.0;
   for (Projected const& point : seen_alone(model, pose_camera, scene)) {
@@ -65,9 +68,12 @@ Agreement agreement(NormalCloud const& model, Eigen::Isometry3f const& pose_came
       result.hidden += 0.5;
       continue;
     }
-    float const tolerance_m = 0.006F + 0.004F * seen_m * seen_m;
-    if (std::abs(seen_m - point.z) < tolerance_m) {
-      result.explained += 1.0;
+    float const tolerance_m = 0.006F + 0.004F * seen_m * seen_m + slack_m;
+    float const off = std::abs(seen_m - point.z) / tolerance_m;
+    if (off < 1.0F) {
+      // Across the surface, not along the ray.
+      float const across = off * point.facing;
+      result.explained += 1.0 - across * across;
       result.blocks.push_back(point.block);
     } else if (seen_m < point.z) {
       result.hidden += 1.0;

@@ -12,7 +12,8 @@ namespace credo {
 /// How a model at a pose fits the depth image.
 struct Agreement {
   /// Shares of the points that are turned to the camera and that the model itself does not hide:
-  /// at the depth seen; behind what is seen; in front of it, where the camera looks through.
+  /// at the depth seen, less where a surface is off it; behind what is seen; in front of it, where
+  /// the camera looks through.
   double explained = 0.0;
   double hidden = 0.0;
   double looked_through = 0.0;
@@ -23,8 +24,9 @@ struct Agreement {
   [[nodiscard]] double score() const;
 };
 
+/// The depth seen is met within the sensor's error and `slack_m`, for poses that are still rough.
 [[nodiscard]] Agreement agreement(NormalCloud const& model, Eigen::Isometry3f const& pose_camera,
-                                  SceneCloud const& scene);
+                                  SceneCloud const& scene, float slack_m = 0.0F);
 
 /// A pose of a model among the candidates for a frame.
 struct Candidate {

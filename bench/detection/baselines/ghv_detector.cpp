@@ -1,14 +1,11 @@
 #include "ghv_detector.hpp"
 
-#include <pcl/common/transforms.h>
 #include <pcl/console/print.h>
 #include <pcl/recognition/cg/geometric_consistency.h>
-#include <pcl/recognition/hv/hv_go.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <numbers>
 #include <set>
 
@@ -18,29 +15,12 @@
 #include "refinement.hpp"
 #include "scene_cloud.hpp"
 #include "shot_keys.hpp"
+#include "verification.hpp"
 
 namespace credo {
 namespace {
 
-using Points = pcl::PointCloud<pcl::PointXYZ>;
 using Poses = std::vector<Eigen::Isometry3f>;
-
-/// The verification tells its times on the error stream.
-class Silence {
-public:
-  Silence() : kept_(std::cerr.rdbuf(nullptr)) {}
-  Silence(Silence const&) = delete;
-  Silence& operator=(Silence const&) = delete;
-  Silence(Silence&&) = delete;
-  Silence& operator=(Silence&&) = delete;
-  ~Silence() {
-    std::cerr.rdbuf(kept_);
-    std::cerr.clear();
-  }
-
-private:
-  std::streambuf* kept_;
-};
 
 /// Where a viewer stands, evenly over the sphere (a golden spiral), looking at the origin.
 Eigen::Isometry3f viewed_from(int view, int views) {
@@ -98,44 +78,39 @@ Poses grouped(ShotKeys const& model, ShotKeys const& scene, pcl::Correspondences
   return poses;
 }
 
-Points::Ptr positions(NormalCloud const& points) {
-  auto result = std::make_shared<Points>();
-  for (pcl::PointNormal const& point : points) {
-    result->emplace_back(point.x, point.y, point.z);
-  }
-  return result;
-}
-
-Points::Ptr organized(Frame const& frame) {
+VerifiedCloud::Ptr organized(Frame const& frame) {
   OrganizedCloud const& cloud = frame.cloud_camera;
-  auto result = std::make_shared<Points>(static_cast<std::uint32_t>(cloud.width()),
-                                         static_cast<std::uint32_t>(cloud.height()));
+  auto result = std::make_shared<VerifiedCloud>(static_cast<std::uint32_t>(cloud.width()),
+                                                static_cast<std::uint32_t>(cloud.height()));
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    (*result)[i] = {cloud.x[i], cloud.y[i], cloud.z[i]};
+    (*result)[i].getVector3fMap() = Eigen::Vector3f(cloud.x[i], cloud.y[i], cloud.z[i]);
   }
   result->is_dense = false;
   return result;
 }
 
-std::vector<bool> verified(Points::Ptr const& things, Points::Ptr const& whole,
-                           std::vector<Points::ConstPtr>& standing, GhvSettings const& settings) {
-  Silence const silence;
-  pcl::GlobalHypothesesVerification<pcl::PointXYZ, pcl::PointXYZ> verification;
-  verification.setResolution(settings.resolution_m);
-  verification.setInlierThreshold(settings.inlier_m);
-  verification.setOcclusionThreshold(settings.occlusion_m);
-  verification.setRegularizer(settings.outlier_weight);
-  verification.setRadiusClutter(settings.clutter_radius_m);
-  verification.setClutterRegularizer(settings.clutter_weight);
-  verification.setDetectClutter(true);
-  verification.setRadiusNormals(0.03F);
-  verification.setSceneCloud(things);
-  verification.setOcclusionCloud(whole);
-  verification.addModels(standing, true);
-  verification.verify();
-  std::vector<bool> mask;
-  verification.getMask(mask);
-  return mask;
+/// Points where a pose brings them.
+VerifiedCloud::Ptr placed(NormalCloud const& points, Eigen::Isometry3f const& pose) {
+  auto result = std::make_shared<VerifiedCloud>();
+  for (pcl::PointNormal const& point : points) {
+    pcl::PointXYZI moved;
+    moved.getVector3fMap() = pose * point.getVector3fMap();
+    result->push_back(moved);
+  }
+  return result;
+}
+
+/// The best of each model.
+std::vector<Detection> one_each(std::vector<Candidate> candidates) {
+  std::ranges::stable_sort(candidates, std::greater{}, &Candidate::score);
+  std::set<std::string> told;
+  std::vector<Detection> detections;
+  for (Candidate const& candidate : candidates) {
+    if (told.insert(candidate.model).second) {
+      detections.push_back(detection_of(candidate));
+    }
+  }
+  return detections;
 }
 
 }  // namespace
@@ -143,20 +118,20 @@ std::vector<bool> verified(Points::Ptr const& things, Points::Ptr const& whole,
 struct GhvDetector::Model {
   ModelCloud dense;
   SearchedCloud searched;
-  Points::Ptr positions;
+  NormalCloud::Ptr sparse;
   ShotKeys keys;
 };
 
 GhvDetector::GhvDetector(std::vector<ObjectModel> const& models, GhvSettings const& settings)
     : settings_(settings) {
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  constexpr double kDense_m = 0.005;
+  constexpr std::size_t kSparsePoints = 300;
   models_.resize(models.size());
   tbb::parallel_for(std::size_t{0}, models.size(), [&](std::size_t m) {
     Model& made = models_[m];
-    made.dense = model_cloud(models[m], kDense_m);
+    made.dense = model_cloud(models[m], settings.surface_m);
     made.searched = searched(made.dense.points);
-    made.positions = positions(*made.dense.points);
+    made.sparse = first_points(*made.dense.points, kSparsePoints);
     std::vector<ShotKeys> views;
     for (int view = 0; view < settings.views; ++view) {
       NormalCloud::Ptr const seen =
@@ -169,6 +144,26 @@ GhvDetector::GhvDetector(std::vector<ObjectModel> const& models, GhvSettings con
 
 GhvDetector::~GhvDetector() = default;
 
+std::vector<Candidate> GhvDetector::hypotheses_of(Model const& model, ShotKeys const& keys,
+                                                  NormalCloud const& surface,
+                                                  SceneCloud const& scene) const {
+  std::vector<Candidate> candidates;
+  auto const matched = matches(model.keys, keys, settings_.least_cosine);
+  for (Eigen::Isometry3f const& guess : grouped(model.keys, keys, matched, settings_)) {
+    if (agreement(*model.sparse, guess, scene, settings_.slack_m).score() <
+        settings_.least_rough_score) {
+      continue;
+    }
+    Candidate candidate{model.dense.name, fitted(model.searched, guess, surface), 0.0, {}};
+    candidate.fit = agreement(*model.dense.points, candidate.pose_camera, scene);
+    candidate.score = candidate.fit.score();
+    if (candidate.score >= settings_.least_score) {
+      candidates.push_back(std::move(candidate));
+    }
+  }
+  return candidates;
+}
+
 std::vector<Detection> GhvDetector::detect(Frame const& frame,
                                            std::vector<DetectionRequest> const& requests) {
   std::set<std::string> asked;
@@ -176,58 +171,34 @@ std::vector<Detection> GhvDetector::detect(Frame const& frame,
     asked.insert(request.type);
   }
   SceneCloud const scene = scene_cloud(frame);
-  NormalCloud::Ptr const surface = thinned(*scene.points, settings_.resolution_m);
+  NormalCloud::Ptr const surface = thinned(*scene.points, settings_.surface_m);
   ShotKeys const keys = shot_keys(*surface, settings_.key_spacing_m, settings_.radius_m);
   std::vector<std::vector<Candidate>> found(models_.size());
   tbb::parallel_for(std::size_t{0}, models_.size(), [&](std::size_t m) {
-    Model const& model = models_[m];
-    if (!asked.contains(model.dense.name) || keys.points->empty()) {
-      return;
-    }
-    auto const matched = matches(model.keys, keys, settings_.least_cosine);
-    for (Eigen::Isometry3f const& guess : grouped(model.keys, keys, matched, settings_)) {
-      Candidate candidate{model.dense.name,
-                          fitted(model.searched, model.dense.diameter_m, guess, *scene.points),
-                          0.0,
-                          {}};
-      candidate.fit = agreement(*model.dense.points, candidate.pose_camera, scene);
-      candidate.score = candidate.fit.score();
-      if (candidate.fit.explained >= settings_.least_explained) {
-        found[m].push_back(std::move(candidate));
-      }
+    if (asked.contains(models_[m].dense.name) && !keys.points->empty()) {
+      found[m] = hypotheses_of(models_[m], keys, *surface, scene);
     }
   });
   std::vector<Candidate> candidates;
-  std::vector<Points::ConstPtr> standing;
+  std::vector<VerifiedCloud::ConstPtr> standing;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     for (Candidate const& candidate : found[m]) {
-      auto placed = std::make_shared<Points>();
-      pcl::transformPointCloud(*models_[m].positions, *placed, candidate.pose_camera.matrix());
-      standing.push_back(placed);
+      standing.push_back(placed(*models_[m].dense.points, candidate.pose_camera));
       candidates.push_back(candidate);
     }
   }
   if (candidates.empty()) {
     return {};
   }
-  std::vector<bool> const accepted =
-      verified(positions(*surface), organized(frame), standing, settings_);
+  std::vector<bool> const accepted = verified(placed(*surface, Eigen::Isometry3f::Identity()),
+                                              organized(frame), standing, settings_.verification);
   std::vector<Candidate> kept;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (accepted[i]) {
       kept.push_back(candidates[i]);
     }
   }
-  // One of a model: the best fit.
-  std::ranges::stable_sort(kept, std::greater{}, &Candidate::score);
-  std::set<std::string> told;
-  std::vector<Detection> detections;
-  for (Candidate const& candidate : kept) {
-    if (told.insert(candidate.model).second) {
-      detections.push_back(detection_of(candidate));
-    }
-  }
-  return detections;
+  return one_each(std::move(kept));
 }
 
 }  // namespace credo

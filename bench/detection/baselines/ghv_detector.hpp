@@ -5,32 +5,37 @@
 
 #include "core/detection.hpp"
 #include "core/object_model.hpp"
+#include "model_cloud.hpp"
+#include "verification.hpp"
 
 namespace credo {
 
-/// To be tuned on the tuning sets; what is not here is as in PCL's own example of this
-/// verification.
+struct Candidate;
+struct SceneCloud;
+struct ShotKeys;
+
+/// Tuned on the tuning sets.
 struct GhvSettings {
-  /// Of descriptors (SHOT) and between the points that have one.
-  double radius_m = 0.04;
+  /// Between the points of models and scene.
+  double surface_m = 0.005;
+  /// Of descriptors (SHOT), and between the points that have one.
+  double radius_m = 0.065;
   double key_spacing_m = 0.015;
   /// Model views that descriptors are taken from.
-  int views = 10;
+  int views = 12;
   /// Cosine between descriptors that match.
-  float least_cosine = 0.8F;
-  /// Matches are of one pose where their distances agree to so much; so many make a hypothesis.
-  double consistency_m = 0.01;
+  float least_cosine = 0.75F;
+  /// Matches are of one pose where their distances agree to so much; more than so many make a
+  /// hypothesis.
+  double consistency_m = 0.015;
   int least_matches = 4;
-  std::size_t hypotheses_per_model = 5;
-  /// Share of a hypothesis' visible points that must be at the depth seen before it is verified.
-  double least_explained = 0.3;
-  // Of the verification.
-  float resolution_m = 0.005F;
-  float inlier_m = 0.01F;
-  float occlusion_m = 0.015F;
-  float outlier_weight = 3.0F;
-  float clutter_radius_m = 0.03F;
-  float clutter_weight = 5.0F;
+  std::size_t hypotheses_per_model = 15;
+  /// How well a hypothesis must fit the depth image (Agreement), before ICP within this much more,
+  /// and after it.
+  float slack_m = 0.02F;
+  double least_rough_score = 0.2;
+  double least_score = 0.7;
+  VerificationSettings verification;
 };
 
 /// Global hypothesis verification (Aldoma et al. 2012): SHOT descriptors of scene and model views
@@ -49,6 +54,10 @@ public:
 
 private:
   struct Model;
+  [[nodiscard]] std::vector<Candidate> hypotheses_of(Model const& model, ShotKeys const& keys,
+                                                     NormalCloud const& surface,
+                                                     SceneCloud const& scene) const;
+
   std::vector<Model> models_;
   GhvSettings settings_;
 };

@@ -9,20 +9,23 @@
 
 namespace credo {
 
-/// To be tuned on the tuning sets.
+struct SceneCloud;
+struct SceneSegment;
+struct Candidate;
+
+/// Tuned on the tuning sets.
 struct IcpSettings {
   double model_spacing_m = 0.006;
   /// Between the turns that are tried of a model at a segment's middle.
-  double turns_apart_deg = 60.0;
-  /// Of a segment: larger ones than the model by this factor are not it, nor smaller ones.
-  double largest_share = 1.15;
-  double smallest_share = 0.3;
-  std::size_t coarse_points = 50;
+  double turns_apart_deg = 50.0;
+  /// Each gets a rough ICP,
+  std::size_t coarse_points = 40;
   IcpLimits coarse = {6, 0.05};
+  /// and so many that fit best a fine one.
   std::size_t finalists = 3;
-  std::size_t fine_points = 300;
-  IcpLimits fine = {30, 0.015};
-  double least_score = 0.6;
+  std::size_t fine_points = 200;
+  IcpLimits fine = {12, 0.015};
+  double least_score = 0.65;
 };
 
 /// Iterative closest points from many turns at each segment's middle: every model against every
@@ -41,6 +44,9 @@ private:
     NormalCloud::Ptr coarse;
     NormalCloud::Ptr fine;
   };
+  [[nodiscard]] std::vector<Candidate> fits_of(Model const& model, SceneSegment const& segment,
+                                               SceneCloud const& scene) const;
+
   std::vector<Model> models_;
   IcpSettings settings_;
 };

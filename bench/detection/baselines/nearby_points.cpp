@@ -1,5 +1,6 @@
 #include "nearby_points.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -8,13 +9,23 @@ namespace credo {
 namespace {
 
 /// At most so many points go into ICP.
-constexpr std::size_t kMostPoints = 300;
+constexpr std::size_t kMostPoints = 150;
+/// The model's normal and the scene's agree to a cosine of so much.
+constexpr float kSameSide = 0.5F;
 
-NormalCloud::Ptr near_model(SearchedCloud const& model, double diameter_m,
-                            Eigen::Isometry3f const& pose, NormalCloud const& scene,
-                            double distance_m) {
+/// From a model's origin to its farthest point.
+float reach_m_of(NormalCloud const& model) {
+  float reach_m = 0.0F;
+  for (pcl::PointNormal const& point : model) {
+    reach_m = std::max(reach_m, point.getVector3fMap().norm());
+  }
+  return reach_m;
+}
+
+NormalCloud::Ptr near_model(SearchedCloud const& model, Eigen::Isometry3f const& pose,
+                            NormalCloud const& scene, double distance_m) {
   Eigen::Isometry3f const T_model_camera = pose.inverse();
-  auto const reach_m = static_cast<float>(diameter_m);
+  float const reach_m = reach_m_of(*model.points) + static_cast<float>(distance_m);
   auto near = std::make_shared<NormalCloud>();
   pcl::Indices nearest(1);
   std::vector<float> distance2_m(1);
@@ -29,7 +40,7 @@ NormalCloud::Ptr near_model(SearchedCloud const& model, double diameter_m,
     Eigen::Vector3f const normal =
         T_model_camera.linear() * Eigen::Vector3f(point.getNormalVector3fMap());
     if (distance2_m[0] < distance_m * distance_m &&
-        surface.getNormalVector3fMap().dot(normal) > 0.5F) {
+        surface.getNormalVector3fMap().dot(normal) > kSameSide) {
       near->push_back(point);
     }
   }
@@ -56,12 +67,13 @@ NormalCloud::Ptr thinned(NormalCloud const& points, double cell_m) {
   return kept;
 }
 
-Eigen::Isometry3f fitted(SearchedCloud const& model, double diameter_m,
-                         Eigen::Isometry3f const& pose_camera, NormalCloud const& scene) {
+Eigen::Isometry3f fitted(SearchedCloud const& model, Eigen::Isometry3f const& pose_camera,
+                         NormalCloud const& scene) {
+  constexpr int kIterations = 8;
   Eigen::Isometry3f pose = pose_camera;
   for (double const distance_m : {0.02, 0.01}) {
-    pose = refined(near_model(model, diameter_m, pose, scene, distance_m), model, pose,
-                   {20, distance_m});
+    pose =
+        refined(near_model(model, pose, scene, distance_m), model, pose, {kIterations, distance_m});
   }
   return pose;
 }

@@ -10,7 +10,7 @@ namespace credo {
 
 /// A pose made better by ICP, twice: from the scene's points that are nearer to the model's surface
 /// than 2 cm, then than 1 cm, to the model.
-[[nodiscard]] Eigen::Isometry3f fitted(SearchedCloud const& model, double diameter_m,
+[[nodiscard]] Eigen::Isometry3f fitted(SearchedCloud const& model,
                                        Eigen::Isometry3f const& pose_camera,
                                        NormalCloud const& scene);
 

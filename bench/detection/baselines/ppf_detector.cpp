@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "agreement.hpp"
@@ -14,6 +15,7 @@
 #include "nearby_points.hpp"
 #include "refinement.hpp"
 #include "scene_cloud.hpp"
+#include "scene_segments.hpp"
 
 namespace credo {
 
@@ -24,6 +26,40 @@ struct PpfDetector::Model {
   NormalCloud::Ptr sparse;
   pcl::PPFHashMapSearch::Ptr pairs;
 };
+
+namespace {
+
+/// So many of a segment's points tell how much of it is on a model.
+constexpr std::size_t kShared = 200;
+
+/// The pose of the model at a segment that has the most votes.
+template <typename Model>
+std::optional<Eigen::Isometry3f> voted(Model const& model, NormalCloud const& segment,
+                                       PpfSettings const& settings) {
+  constexpr std::size_t kLeastPoints = 6;
+  NormalCloud::Ptr const points = thinned(segment, model.spacing_m);
+  if (points->size() < kLeastPoints) {
+    return std::nullopt;
+  }
+  pcl::PPFRegistration<pcl::PointNormal, pcl::PointNormal> voting;
+  voting.setSceneReferencePointSamplingRate(settings.reference_step);
+  voting.setPositionClusteringThreshold(static_cast<float>(0.1 * model.dense.diameter_m));
+  voting.setRotationClusteringThreshold(static_cast<float>(20.0 * std::numbers::pi / 180.0));
+  voting.setSearchMethod(model.pairs);
+  voting.setInputSource(model.sparse);
+  voting.setInputTarget(points);
+  NormalCloud moved;
+  voting.align(moved);
+  Eigen::Isometry3f pose;
+  pose.matrix() = voting.getFinalTransformation();
+  if (!pose.matrix().allFinite()) {
+    return std::nullopt;
+  }
+  pose.linear() = Eigen::Quaternionf(pose.linear()).normalized().toRotationMatrix();
+  return pose;
+}
+
+}  // namespace
 
 PpfDetector::PpfDetector(std::vector<ObjectModel> const& models, PpfSettings const& settings)
     : settings_(settings) {
@@ -55,37 +91,35 @@ PpfDetector::~PpfDetector() = default;
 
 std::vector<Detection> PpfDetector::detect(Frame const& frame,
                                            std::vector<DetectionRequest> const& requests) {
+  constexpr double kSurface_m = 0.005;
   std::set<std::string> asked;
   for (DetectionRequest const& request : requests) {
     asked.insert(request.type);
   }
   SceneCloud const scene = scene_cloud(frame);
+  NormalCloud::Ptr const surface = thinned(*scene.points, kSurface_m);
+  std::vector<SceneSegment> const segments = segments_of(scene);
   std::vector<std::vector<Candidate>> found(models_.size());
   tbb::parallel_for(std::size_t{0}, models_.size(), [&](std::size_t m) {
     Model const& model = models_[m];
-    NormalCloud::Ptr const points = thinned(*scene.points, model.spacing_m);
-    if (!asked.contains(model.dense.name) || points->size() < 10) {
+    if (!asked.contains(model.dense.name)) {
       return;
     }
-    pcl::PPFRegistration<pcl::PointNormal, pcl::PointNormal> voting;
-    voting.setSceneReferencePointSamplingRate(settings_.reference_step);
-    voting.setPositionClusteringThreshold(static_cast<float>(0.1 * model.dense.diameter_m));
-    voting.setRotationClusteringThreshold(static_cast<float>(20.0 * std::numbers::pi / 180.0));
-    voting.setSearchMethod(model.pairs);
-    voting.setInputSource(model.sparse);
-    voting.setInputTarget(points);
-    NormalCloud moved;
-    voting.align(moved);
-    Eigen::Isometry3f pose;
-    pose.matrix() = voting.getFinalTransformation();
-    if (!pose.matrix().allFinite()) {
-      return;
+    for (SceneSegment const& segment : segments) {
+      if (!segment.could_be(model.dense.diameter_m)) {
+        continue;
+      }
+      auto const guess = voted(model, *segment.points, settings_);
+      if (!guess) {
+        continue;
+      }
+      Eigen::Isometry3f const pose = fitted(model.searched, *guess, *surface);
+      Candidate candidate{model.dense.name, pose, 0.0, agreement(*model.dense.points, pose, scene)};
+      candidate.score =
+          candidate.fit.score() *
+          share_on_model(*first_points(*segment.points, kShared), model.searched, pose);
+      found[m].push_back(std::move(candidate));
     }
-    pose.linear() = Eigen::Quaternionf(pose.linear()).normalized().toRotationMatrix();
-    pose = fitted(model.searched, model.dense.diameter_m, pose, *scene.points);
-    Candidate candidate{model.dense.name, pose, 0.0, agreement(*model.dense.points, pose, scene)};
-    candidate.score = candidate.fit.score();
-    found[m].push_back(std::move(candidate));
   });
   std::vector<Candidate> candidates;
   for (auto& of_model : found) {

@@ -19,8 +19,8 @@ struct IcpLimits {
   double max_distance_m = 0.02;
 };
 
-/// PCL's point-to-point ICP: where `target` stands in the frame of `source`, from a guess. The
-/// guess itself where it fails.
+/// ICP as PCL runs it, with steps of point to plane: where `target` stands in the frame of
+/// `source`, from a guess. The guess itself where it fails.
 [[nodiscard]] Eigen::Isometry3f refined(NormalCloud::Ptr const& source, SearchedCloud const& target,
                                         Eigen::Isometry3f const& target_pose,
                                         IcpLimits const& limits);

@@ -76,13 +76,16 @@ Table table_of(Eigen::Vector4f const& plane, Points const& points, pcl::Indices 
   return table;
 }
 
-/// Of the largest planes the nearest that faces up (the camera is upright).
+/// Of the largest planes that face up (the camera is upright) the nearest, but none that is a small
+/// part of the largest: that is the top of a box.
 std::optional<Table> find_table(OrganizedCloud const& cloud) {
   constexpr int kPlanes = 4;
   constexpr std::size_t kLeastPoints = 800;
   constexpr float kUp = 0.25F;
   Points::Ptr rest = sparse_points(cloud);
+  constexpr double kSmallPart = 0.35;
   std::optional<Table> nearest;
+  std::size_t most = 0;
   for (int k = 0; k < kPlanes && rest->size() > kLeastPoints; ++k) {
     pcl::SACSegmentation<pcl::PointXYZ> search;
     search.setModelType(pcl::SACMODEL_PLANE);
@@ -99,8 +102,13 @@ std::optional<Table> find_table(OrganizedCloud const& cloud) {
     }
     Eigen::Vector4f plane = Eigen::Map<Eigen::Vector4f>(coefficients.values.data());
     plane = plane.w() < 0.0F ? Eigen::Vector4f(-plane) : plane;  // towards the camera
-    if (-plane.y() > kUp && (!nearest || plane.w() < nearest->offset_m)) {
-      nearest = table_of(plane, *rest, inliers->indices);
+    if (-plane.y() > kUp) {
+      most = std::max(most, inliers->indices.size());
+      bool const small =
+          static_cast<double>(inliers->indices.size()) < kSmallPart * static_cast<double>(most);
+      if (!small && (!nearest || plane.w() < nearest->offset_m)) {
+        nearest = table_of(plane, *rest, inliers->indices);
+      }
     }
     pcl::ExtractIndices<pcl::PointXYZ> others(false);
     others.setInputCloud(rest);
