@@ -55,6 +55,29 @@ TEST(ScenePlanes, WhatStandsOffAPlaneIsASegmentOfItsOwn) {
   }
 }
 
+TEST(ScenePlanes, MarkedAnewOnlyTheNewPlanesCount) {
+  SearchScene scene = wall_with_disc(0.05F);
+  scene.planes = large_planes(points_of_segments(scene, 1), scene.pixels.size());
+  mark_planes(scene);
+  ASSERT_EQ((scene.pixels[Pixel{10, 10}].plane), 0);
+  scene.planes.clear();
+  mark_planes(scene);
+  EXPECT_EQ((scene.pixels[Pixel{10, 10}].plane), kNoPlane);
+}
+
+// Two steps up the wall, each of them flat and next to the other.
+TEST(ScenePlanes, WhatStandsOffAtAnotherDepthIsAnother) {
+  SearchScene scene = wall_with_disc(0.05F);
+  for (int v = 100; v < 140; ++v) {
+    for (int u = 160; u < 190; ++u) {
+      scene.pixels[{u, v}].depth_m = 0.85F;
+    }
+  }
+  scene.planes = large_planes(points_of_segments(scene, 1), scene.pixels.size());
+  mark_planes(scene);
+  EXPECT_EQ(split_from_planes(scene, 1), 3U);
+}
+
 TEST(ScenePlanes, TwoThingsThatStandOffApartAreTwo) {
   SearchScene scene = wall_with_disc(0.05F);
   for (int v = 20; v < 40; ++v) {
