@@ -1,6 +1,5 @@
 #include "detector/scene_planes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,8 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+
+#include "detector/point_moments.hpp"
 
 namespace credo {
 namespace {
@@ -44,36 +45,28 @@ struct Flat {
 /// By least squares of those points for which `is_in` is true; none of fewer than three.
 template <typename IsIn>
 std::optional<Flat> fitted(std::vector<OrientedPoint> const& points, IsIn const& is_in) {
-  double count = 0.0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  PointMoments moments;
   for (OrientedPoint const& p : points) {
     if (is_in(p)) {
-      Eigen::Vector3d const point = p.point.cast<double>();
-      count += 1.0;
-      sum += point;
-      squares += point * point.transpose();
+      moments.add(p.point, 0.0);
     }
   }
-  if (count < 3.0) {
+  if (moments.count < 3.0) {
     return std::nullopt;
   }
-  Eigen::Vector3d const mean = sum / count;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> const solver(squares / count -
-                                                              mean * mean.transpose());
-  Eigen::Vector3d normal = solver.eigenvectors().col(0);
-  if (normal.dot(mean) > 0.0) {
+  PointSpread const spread = spread_of(moments);
+  Eigen::Vector3d normal = spread.axes.col(0);
+  if (normal.dot(spread.mean) > 0.0) {
     normal = -normal;
   }
   Flat flat;
   flat.plane.normal_camera = normal.cast<float>();
-  flat.plane.offset_m = static_cast<float>(normal.dot(mean));
+  flat.plane.offset_m = static_cast<float>(normal.dot(spread.mean));
   // Of an even strip the deviation is its length over the root of 12.
-  flat.plane.extent_m =
-      static_cast<float>(std::sqrt(12.0 * std::max(0.0, solver.eigenvalues()[2])));
-  flat.share = count / static_cast<double>(points.size());
-  flat.deviation_m = std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
-  flat.range_m = mean.z();
+  flat.plane.extent_m = static_cast<float>(std::sqrt(12.0 * spread.variances[2]));
+  flat.share = moments.count / static_cast<double>(points.size());
+  flat.deviation_m = std::sqrt(spread.variances[0]);
+  flat.range_m = spread.mean.z();
   return flat;
 }
 

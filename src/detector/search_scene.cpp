@@ -1,45 +1,15 @@
 #include "detector/search_scene.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
+#include "detector/point_moments.hpp"
 #include "detector/scene_planes.hpp"
 
 namespace credo {
 namespace {
-
-/// Sums over a segment's points.
-struct Moments {
-  double count = 0.0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  double area_m2 = 0.0;
-
-  void add(Eigen::Vector3f const& point_f, double area) {
-    Eigen::Vector3d const point = point_f.cast<double>();
-    count += 1.0;
-    sum += point;
-    squares += point * point.transpose();
-    area_m2 += area;
-  }
-};
-
-/// Mean, main axes and variances along them, rising.
-struct Spread {
-  Eigen::Vector3d mean;
-  Eigen::Matrix3d axes;
-  Eigen::Vector3d variances;
-};
-
-Spread spread_of(Moments const& moments) {
-  Eigen::Vector3d const mean = moments.sum / moments.count;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> const solver(moments.squares / moments.count -
-                                                              mean * mean.transpose());
-  return {mean, solver.eigenvectors(), solver.eigenvalues().cwiseMax(0.0)};
-}
 
 std::int8_t coded(float component) {
   return static_cast<std::int8_t>(std::lround(component * 127.0F));
@@ -63,8 +33,8 @@ Grid<ScenePixel> pixels_of(Grid<float> const& depth_m, NormalMap const& normals,
   return pixels;
 }
 
-std::vector<Moments> moments_of(SearchScene const& scene, std::size_t segment_count) {
-  std::vector<Moments> moments(segment_count);
+std::vector<PointMoments> moments_of(SearchScene const& scene, std::size_t segment_count) {
+  std::vector<PointMoments> moments(segment_count);
   double const pixel_solid_angle = 1.0 / (scene.intrinsics.fx_px * scene.intrinsics.fy_px);
   for (int v = 0; v < scene.pixels.height(); ++v) {
     for (int u = 0; u < scene.pixels.width(); ++u) {
@@ -85,11 +55,11 @@ std::vector<Moments> moments_of(SearchScene const& scene, std::size_t segment_co
   return moments;
 }
 
-SceneSegment segment_of(Moments const& moments) {
+SceneSegment segment_of(PointMoments const& moments) {
   SceneSegment segment;
   segment.pixels = static_cast<int>(moments.count);
   if (segment.pixels > 0) {
-    Spread const spread = spread_of(moments);
+    PointSpread const spread = spread_of(moments);
     segment.centre_m = spread.mean.cast<float>();
     // Of an even strip the deviation is its length over the root of 12.
     segment.extent_m = static_cast<float>(std::sqrt(12.0 * spread.variances[2]));
@@ -136,7 +106,7 @@ SearchScene prepare_scene(Grid<float> const& depth_m, CameraIntrinsics const& in
     find_planes(scene, segment_count);
   }
   scene.segments.reserve(segment_count);
-  for (Moments const& of_segment : moments_of(scene, segment_count)) {
+  for (PointMoments const& of_segment : moments_of(scene, segment_count)) {
     scene.segments.push_back(segment_of(of_segment));
   }
   scene.facets = scene_facets(scene);
