@@ -189,7 +189,9 @@ private:
       }
       return;
     }
-    if (frames_ == 0 && !frame->color.empty() && !frame->color_registered) {
+    // Not only of the first frame: its colour may come later than its depth.
+    if (!told_unregistered_ && !frame->color.empty() && !frame->color_registered) {
+      told_unregistered_ = true;
       board_.note(order_.source +
                   ": does not register its depth to its colour; recorded as it sees. --set "
                   "sensor.registration=software records it registered");
@@ -212,6 +214,7 @@ private:
   bool live_;
   RegistrationDoubt doubt_;
   bool denies_ = false;
+  bool told_unregistered_ = false;
   std::int64_t frames_ = 0;
   std::optional<std::int64_t> first_stamp_ns_;
   double stamps_s_ = 0.0;
