@@ -15,6 +15,7 @@ void add_watch_command(CLI::App& app, Command& chosen);
 void add_simulate_command(CLI::App& app, Command& chosen);
 void add_eval_command(CLI::App& app, Command& chosen);
 void add_detect_command(CLI::App& app, Command& chosen);
+void add_model_command(CLI::App& app, Command& chosen);
 void add_why_command(CLI::App& app, Command& chosen);
 void add_devices_command(CLI::App& app, Command& chosen);
 void add_calibrate_command(CLI::App& app, Command& chosen);

@@ -34,7 +34,7 @@ constexpr char const* kExamples = R"(Examples:
   credo detect --source openni: --model cat.yaml --set detector.bpa.min_probability=0.8
 
 Each model is looked for once, anywhere in the frame, by its shape. A model is a file as docs/known-objects.md
-tells, or the name of one in models/. --json prints a list; poses are in the camera frame, metres,
+tells, or a mesh (metres), as `credo model` makes them, or the name of one in models/. --json prints a list; poses are in the camera frame, metres,
 covariances row by row in the order (delta m, phi rad).)";
 
 struct DetectCommand {
@@ -104,7 +104,7 @@ int run_detection(DetectCommand const& command) {
   }
   BpaConfig search = config.detector.bpa;
   search.search = ObjectSearch::kGlobal;
-  BpaDetector detector(models, search);
+  BpaDetector detector(prepare_models(models, model_cache(search.cache_dir)), search);
   std::vector<Detection> const detections = detector.detect(*frame, requests);
   if (!command.picture.empty()) {
     write_png_rgb(command.picture, draw_detections(*frame, detector.models(), detections));

@@ -62,7 +62,8 @@ std::unique_ptr<Detector> open_detector(DetectorConfig const& config, DdsConfig 
           load_scene(source_uri.substr(std::string(kScheme).size())), config.sim);
     }
     case DetectorKind::kBpa:
-      return std::make_unique<BpaDetector>(models, config.bpa);
+      return std::make_unique<BpaDetector>(
+          prepare_models(models, model_cache(config.bpa.cache_dir)), config.bpa);
     case DetectorKind::kRemote:
       return std::make_unique<RemoteDetector>(dds, config.remote, std::move(tell));
   }

@@ -22,6 +22,7 @@ constexpr char const* kExamples = R"(Examples:
   credo simulate first-light --out data/room --set sim.sensor=disparity
   credo eval out/room --truth data/room
   credo detect --source dataset:recordings/desk --model cat.yaml --picture found.png
+  credo model milk.pcd --out milk.ply
   credo why out/room stuff:7
   credo config --set fusion.prior_probability=0.9 > my.yaml
   credo run --source sim:first-light --config my.yaml --out out/room
@@ -50,6 +51,7 @@ int run_command_line(int argc, char** argv) {
   credo::add_simulate_command(app, chosen);
   credo::add_eval_command(app, chosen);
   credo::add_detect_command(app, chosen);
+  credo::add_model_command(app, chosen);
   credo::add_why_command(app, chosen);
   credo::add_devices_command(app, chosen);
   credo::add_calibrate_command(app, chosen);

@@ -2,6 +2,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <optional>
 #include <set>
 #include <utility>
@@ -35,6 +37,25 @@ std::string known_models(std::vector<fs::path> const& folders) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+bool is_bare_mesh(fs::path const& path) {
+  return path.extension() != ".yaml" && path.extension() != ".yml";
+}
+
+/// What a model's file tells; of a bare mesh what goes without saying.
+ModelFile read_model_file(fs::path const& path) {
+  ModelFile file;
+  if (is_bare_mesh(path)) {
+    file.mesh = path.filename().string();
+    file.one_sided = true;
+  } else {
+    load_config(fields(file), {path}, {});
+  }
+  if (file.name.empty()) {
+    file.name = path.stem().string();
+  }
+  return file;
+}
+
 }  // namespace
 
 fs::path find_model(std::string const& model, fs::path const& asker, std::string const& who) {
@@ -65,11 +86,7 @@ fs::path model_called(std::string const& name, fs::path const& folder) {
 }
 
 ObjectModel load_model(fs::path const& path, std::vector<std::string>& warnings) {
-  ModelFile file;
-  load_config(fields(file), {path}, {});
-  if (file.name.empty()) {
-    file.name = path.stem().string();
-  }
+  ModelFile const file = read_model_file(path);
   std::optional<TriangleMesh> mesh;
   if (!file.mesh.empty()) {
     fs::path const mesh_path = path.parent_path() / file.mesh;
@@ -85,9 +102,22 @@ ObjectModel load_model(fs::path const& path, std::vector<std::string>& warnings)
   return model_of(file, std::move(mesh), path.string());
 }
 
+fs::path model_cache(std::string const& cache_dir) {
+  if (cache_dir != "auto") {
+    return cache_dir;
+  }
+  // A path that is not absolute must be passed over (XDG Base Directory Specification).
+  if (char const* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache == '/') {
+    return fs::path(cache) / "credo";
+  }
+  if (char const* home = std::getenv("HOME"); home != nullptr && *home == '/') {
+    return fs::path(home) / ".cache" / "credo";
+  }
+  return {};
+}
+
 void copy_model(fs::path const& file, fs::path const& folder, std::string const& name) {
-  ModelFile model;
-  load_config(fields(model), {file}, {});
+  ModelFile model = read_model_file(file);
   fs::path const mesh = fs::path(model.mesh).lexically_normal();
   if (mesh.is_absolute() || (!mesh.empty() && *mesh.begin() == "..")) {
     return;
@@ -95,7 +125,11 @@ void copy_model(fs::path const& file, fs::path const& folder, std::string const&
   constexpr auto kReplace = fs::copy_options::overwrite_existing;
   try {
     fs::create_directories((folder / mesh).parent_path());
-    fs::copy_file(file, folder / (name + ".yaml"), kReplace);
+    if (is_bare_mesh(file)) {
+      std::ofstream(folder / (name + ".yaml")) << config_yaml(fields(model));
+    } else {
+      fs::copy_file(file, folder / (name + ".yaml"), kReplace);
+    }
     if (!mesh.empty()) {
       fs::copy_file(file.parent_path() / mesh, folder / mesh, kReplace);
     }

@@ -66,6 +66,12 @@ FieldList fields(BpaConfig& config) {
        "what is found everywhere is told so much later; the search runs beside the pipeline "
        "meanwhile; 0: the frame waits; -1: as soon as it is done (live)"},
       {"seed", &config.seed, {0, 1e9}, "", "of all random choices"},
+      {"cache_dir",
+       &config.cache_dir,
+       {},
+       "",
+       "models made ready are kept in this folder; auto: credo in $XDG_CACHE_HOME, else in "
+       "~/.cache; empty: nowhere"},
   };
 }
 

@@ -63,6 +63,9 @@ struct BpaConfig {
   /// differ from run to run.
   int global_lag_frames = 3;
   int seed = 1;
+  /// Where models that were made ready are kept: a folder, `auto` for the user's own cache, empty
+  /// for nowhere.
+  std::string cache_dir = "auto";
 };
 FieldList fields(BpaConfig& config);
 

@@ -150,6 +150,11 @@ FieldList fields(ModelFile& file) {
               "a shape that stands on the centre of its base, z up"),
       {"mesh", &file.mesh, {}, "", "a mesh's file, beside this one; it keeps its own frame"},
       choice("unit", file.unit, {"m", "mm"}, "of the mesh's numbers"),
+      {"one_sided",
+       &file.one_sided,
+       {},
+       "",
+       "an open mesh whose triangles show their outside alone: what is behind was never seen"},
       symmetry_field(file.symmetry),
   };
 }
@@ -165,8 +170,12 @@ ObjectModel model_of(ModelFile const& file, std::optional<TriangleMesh> mesh,
   if (file.mesh.empty() && file.unit != LengthUnit::kMetre) {
     refuse(where, "unit is that of a mesh's numbers; primitives are in metres");
   }
+  if (file.mesh.empty() && file.one_sided) {
+    refuse(where, "one_sided tells of a mesh; primitives are closed");
+  }
   ObjectModel model;
   model.name = file.name;
+  model.one_sided = file.one_sided;
   give_shape(file, std::move(mesh), where, model);
   SymmetryEntry const& entry = file.symmetry;
   if (entry.form != Form::kWord || entry.word != SymmetryEntry::Word::kOwn) {

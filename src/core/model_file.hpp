@@ -47,6 +47,8 @@ struct ModelFile {
   /// Beside the model's file; any format that assimp reads.
   std::string mesh;
   LengthUnit unit = LengthUnit::kMetre;
+  /// What lies behind an open mesh's triangles was never seen.
+  bool one_sided = false;
   SymmetryEntry symmetry;
 };
 FieldList fields(ModelFile& file);

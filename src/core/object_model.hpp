@@ -42,6 +42,9 @@ struct ObjectModel {
   /// A union of convex bodies, or a mesh; neither is empty.
   std::variant<std::vector<Solid>, TriangleMesh> shape;
   Symmetry symmetry;
+  /// Of an open mesh: its triangles are seen from their outside alone, as those of an object of
+  /// which only that side was ever seen. Else from both, as a sheet is.
+  bool one_sided = false;
 };
 
 /// By name, which is what objects call their type.

@@ -87,7 +87,10 @@ std::vector<DetectionRequest> missing(std::vector<DetectionRequest> const& reque
 }  // namespace
 
 BpaDetector::BpaDetector(ObjectModels const& models, BpaConfig config)
-    : models_(prepare_models(models)), config_(config) {}
+    : BpaDetector(prepare_models(models), std::move(config)) {}
+
+BpaDetector::BpaDetector(PreparedModels models, BpaConfig config)
+    : models_(std::move(models)), config_(std::move(config)) {}
 
 std::vector<Detection> BpaDetector::detect(Frame const& frame,
                                            std::vector<DetectionRequest> const& requests) {

@@ -44,8 +44,11 @@ struct ObjectAnswer {
 /// what is ready and waits for nothing.
 class BpaDetector : public Detector {
 public:
-  /// Prepares the models, 0.3 s each. Throws InputError for a model without a surface.
+  /// Prepares the models, 0.3 s each, and keeps them nowhere. Throws InputError for a model without
+  /// a surface.
   BpaDetector(ObjectModels const& models, BpaConfig config);
+  /// With models that are prepared already.
+  BpaDetector(PreparedModels models, BpaConfig config);
 
   /// Scores are probabilities.
   std::vector<Detection> detect(Frame const& frame,

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/oriented_point.hpp"
+
 namespace credo {
 
 /// A flat piece of a surface, bounded by a rectangle.
@@ -20,12 +22,6 @@ struct Facet {
   std::uint16_t segment = 0;
 
   [[nodiscard]] Eigen::Vector3f across() const { return normal.cross(along); }
-};
-
-/// A point and its unit normal.
-struct OrientedPoint {
-  Eigen::Vector3f point;
-  Eigen::Vector3f normal;
 };
 
 /// The flat pieces of a surface, those with the most points first: points whose normals agree

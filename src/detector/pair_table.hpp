@@ -55,6 +55,16 @@ public:
   [[nodiscard]] std::span<Entry const> like(Eigen::Vector4f const& feature) const;
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
 
+  /// Calls with every list and every number that a table is made of, for archives.
+  template <typename Table, typename List, typename Value>
+  static void tell(Table& table, List const& list, Value const& value) {
+    list(table.references_);
+    value(table.step_m_);
+    value(table.distance_steps_);
+    list(table.begins_);
+    list(table.entries_);
+  }
+
 private:
   [[nodiscard]] std::size_t cell(std::array<int, 4> const& steps) const;
 

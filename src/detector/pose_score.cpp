@@ -42,6 +42,9 @@ float PoseScore::operator()(CameraPose const& pose, std::size_t points) const {
   }
   ModelView const& view = model_.view_from(-(pose.rotation.transpose() * centre));
   std::size_t const count = std::min(points, view.visible.size());
+  if (count == 0) {
+    return kWorst;
+  }
   SceneProjection const project(scene_);
   Counts sum;
   for (std::size_t k = 0; k < count; ++k) {

@@ -17,8 +17,8 @@ public:
 
   /// Of the first `points` that the nearest view shows: those whose depth and normal agree, less
   /// those that the scene is seen through, over those that are not hidden; less what of the
-  /// silhouette lies within one surface. At most 1; a pose that is not before the camera has
-  /// kWorst.
+  /// silhouette lies within one surface. At most 1; a pose that is not before the camera, or
+  /// from which a one-sided model shows nothing, has kWorst.
   [[nodiscard]] float operator()(CameraPose const& pose, std::size_t points) const;
 
   static constexpr float kWorst = -10.0F;

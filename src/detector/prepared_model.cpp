@@ -1,14 +1,20 @@
 #include "detector/prepared_model.hpp"
 
+#include "detector/model_cache.hpp"
+
 namespace credo {
 
-PreparedModels prepare_models(ObjectModels const& models) {
+PreparedModel prepared(ObjectModel const& model) {
+  PreparedModel prepared;
+  prepared.model = prepare_model(model);
+  prepared.pairs = PairTable(prepared.model);
+  return prepared;
+}
+
+PreparedModels prepare_models(ObjectModels const& models, std::filesystem::path const& cache) {
   PreparedModels prepared;
   for (auto const& [name, model] : models) {
-    auto one = std::make_shared<PreparedModel>();
-    one->model = prepare_model(model);
-    one->pairs = PairTable(one->model);
-    prepared.emplace(name, std::move(one));
+    prepared.emplace(name, kept_or_prepared(model, cache));
   }
   return prepared;
 }

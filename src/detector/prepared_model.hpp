@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -19,7 +20,12 @@ struct PreparedModel {
 /// By the name of their model.
 using PreparedModels = std::map<std::string, std::shared_ptr<PreparedModel const>>;
 
-/// Takes about 0.3 s for a model. Throws InputError for one without a surface.
-[[nodiscard]] PreparedModels prepare_models(ObjectModels const& models);
+/// Takes about 0.3 s. Throws InputError for a model without a surface.
+[[nodiscard]] PreparedModel prepared(ObjectModel const& model);
+
+/// All of them, as far as they are kept in a folder from there (model_cache.hpp); an empty path for
+/// no folder.
+[[nodiscard]] PreparedModels prepare_models(ObjectModels const& models,
+                                            std::filesystem::path const& cache = {});
 
 }  // namespace credo

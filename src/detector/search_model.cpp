@@ -63,11 +63,11 @@ void set_extent(SearchModel& model) {
 void set_points(SearchModel& model, TriangleMesh const& mesh) {
   model.spacing_m = std::max(kFinestSpacing_m, std::sqrt(model.surface_m2 / kMaxPoints));
   SurfaceSample const sample = sample_surface(mesh, model.spacing_m, kSampleSeed);
-  bool const closed = is_closed(edges_of(mesh));
+  bool const twice = !model.one_sided && !is_closed(edges_of(mesh));
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     model.points_model.push_back(sample.points[i]);
     model.normals_model.push_back(sample.normals[i]);
-    if (!closed) {
+    if (twice) {
       model.points_model.push_back(sample.points[i]);
       model.normals_model.emplace_back(-sample.normals[i]);
     }
@@ -181,6 +181,9 @@ DepthPatch SearchModel::rendered(CameraPose const& pose, CameraIntrinsics const&
   for (Eigen::Vector3f const& vertex : vertices_model) {
     vertices.push_back(pose * vertex);
   }
+  if (one_sided) {
+    return render_depth(vertices, facing_camera(vertices, triangles), intrinsics, size);
+  }
   return render_depth(vertices, triangles, intrinsics, size);
 }
 
@@ -189,6 +192,7 @@ SearchModel prepare_model(ObjectModel const& model) {
   SearchModel prepared;
   prepared.name = model.name;
   prepared.symmetry = model.symmetry;
+  prepared.one_sided = model.one_sided;
   prepared.surface_m2 = area_of(mesh);
   if (mesh.triangles.empty() || !(prepared.surface_m2 > 0.0F)) {
     throw InputError("model " + model.name + ": has no surface, so nothing of it can be seen");

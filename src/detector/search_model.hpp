@@ -37,6 +37,8 @@ struct ModelView {
 struct SearchModel {
   std::string name;
   Symmetry symmetry;
+  /// What is behind its triangles was never seen: from there it shows nothing.
+  bool one_sided = false;
   /// Of the box that bounds it.
   Eigen::Vector3f centre_model = Eigen::Vector3f::Zero();
   /// Of the sphere about the centre that holds it.
@@ -49,7 +51,7 @@ struct SearchModel {
   /// On its surface, no two nearer than `spacing_m`, in random order: the first n are a sample of
   /// all. Those that no view shows are left out.
   std::vector<Eigen::Vector3f> points_model;
-  /// Unit, outward; an open mesh has each point twice, facing either way.
+  /// Unit, outward; an open mesh that is not one-sided has each point twice, facing either way.
   std::vector<Eigen::Vector3f> normals_model;
   float spacing_m = 0.0F;
 
@@ -61,7 +63,7 @@ struct SearchModel {
   std::vector<Eigen::Vector3f> vertices_model;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
-  /// From the corners of a fine icosahedron.
+  /// From the corners of a fine icosahedron. From behind a one-sided model some show nothing.
   std::vector<ModelView> views;
 
   /// Nearest to a direction from the centre to the camera, which need not be unit.

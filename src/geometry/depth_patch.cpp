@@ -1,5 +1,6 @@
 #include "geometry/depth_patch.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -125,6 +126,22 @@ void draw(Projected const& a, Projected const& b, Projected const& c, DepthPatch
 }
 
 }  // namespace
+
+std::vector<std::array<std::uint32_t, 3>> facing_camera(
+    std::span<Eigen::Vector3f const> vertices_camera,
+    std::span<std::array<std::uint32_t, 3> const> triangles) {
+  std::vector<std::array<std::uint32_t, 3>> facing;
+  facing.reserve(triangles.size());
+  for (auto const& triangle : triangles) {
+    Eigen::Vector3f const& a = vertices_camera[triangle[0]];
+    Eigen::Vector3f const ab = vertices_camera[triangle[1]] - a;
+    Eigen::Vector3f const ac = vertices_camera[triangle[2]] - a;
+    if (ab.cross(ac).dot(a) < 0.0F) {
+      facing.push_back(triangle);
+    }
+  }
+  return facing;
+}
 
 DepthPatch render_depth(std::span<Eigen::Vector3f const> vertices_camera,
                         std::span<std::array<std::uint32_t, 3> const> triangles,

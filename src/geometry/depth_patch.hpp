@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "core/frame.hpp"
 #include "core/grid.hpp"
@@ -27,6 +28,11 @@ struct ImageSize {
   int width_px = 640;
   int height_px = 480;
 };
+
+/// Those triangles that turn counter-clockwise as the camera sees them.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> facing_camera(
+    std::span<Eigen::Vector3f const> vertices_camera,
+    std::span<std::array<std::uint32_t, 3> const> triangles);
 
 /// The depth of triangles, seen from either side, at the centres of pixels: the nearest at each,
 /// exact to the rounding of floats (in inverse depth a triangle is affine in the image). A triangle

@@ -4,12 +4,14 @@
 #include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <exception>
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "io/pcd_header.hpp"
 
@@ -18,18 +20,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-pcl::PCLPointCloud2 read_by_pcl(fs::path const& path, PcdHeader const& header) {
+struct PclCloud {
+  pcl::PCLPointCloud2 data;
+  Eigen::Vector3f viewpoint;
+};
+
+PclCloud read_by_pcl(fs::path const& path, PcdHeader const& header) {
   // PCL writes its complaints to the terminal; ours are thrown.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   pcl::PCLPointCloud2 cloud;
-  Eigen::Vector4f origin;
+  Eigen::Vector4f origin = Eigen::Vector4f::Zero();
   Eigen::Quaternionf orientation;
   int version = 0;
   try {
     if (pcl::PCDReader().read(path.string(), cloud, origin, orientation, version) >= 0 &&
         cloud.width == header.width && cloud.height == header.height &&
         cloud.data.size() == header.points * cloud.point_step) {
-      return cloud;
+      return {std::move(cloud), origin.head<3>()};
     }
   } catch (std::exception const&) {
     // Told below, like the faults that PCL tells by its result.
@@ -57,20 +64,57 @@ T value_at(pcl::PCLPointCloud2 const& cloud, std::size_t point, std::size_t offs
   return value;
 }
 
-bool mostly_behind(Grid<float> const& z) {
+struct PointOffsets {
+  std::size_t x = 0;
+  std::size_t y = 0;
+  std::size_t z = 0;
+};
+
+PointOffsets offsets_in(pcl::PCLPointCloud2 const& cloud, fs::path const& path) {
+  auto const x = offset_of(cloud, "x", false);
+  auto const y = offset_of(cloud, "y", false);
+  auto const z = offset_of(cloud, "z", false);
+  if (!x || !y || !z) {
+    throw InputError(path.string() + ": needs float fields x y z");
+  }
+  return {*x, *y, *z};
+}
+
+Eigen::Vector3f point_at(pcl::PCLPointCloud2 const& cloud, std::size_t point,
+                         PointOffsets const& offsets) {
+  return {value_at<float>(cloud, point, offsets.x), value_at<float>(cloud, point, offsets.y),
+          value_at<float>(cloud, point, offsets.z)};
+}
+
+float z_of(float z) {
+  return z;
+}
+float z_of(Eigen::Vector3f const& point) {
+  return point.z();
+}
+
+/// Whether y is up and z backward in a file, by its points or their z.
+template <typename Points>
+bool is_turned(Points const& points, CloudAxes axes) {
+  if (axes != CloudAxes::kAuto) {
+    return axes == CloudAxes::kYUpZBack;
+  }
   std::size_t behind = 0;
   std::size_t ahead = 0;
-  for (float const value : z) {
-    behind += value < 0 ? 1 : 0;
-    ahead += value > 0 ? 1 : 0;
+  for (auto const& point : points) {
+    behind += z_of(point) < 0 ? 1 : 0;
+    ahead += z_of(point) > 0 ? 1 : 0;
   }
   return behind > ahead;
 }
 
+Eigen::Vector3f turned(Eigen::Vector3f const& point) {
+  return {point.x(), -point.y(), -point.z()};
+}
+
 /// Turns the axes and makes invalid points NaN in all three coordinates.
 void clean(OrganizedCloud& cloud, CloudAxes axes, double max_depth_m) {
-  bool const turn =
-      axes == CloudAxes::kYUpZBack || (axes == CloudAxes::kAuto && mostly_behind(cloud.z));
+  bool const turn = is_turned(cloud.z, axes);
   float const sign = turn ? -1.0F : 1.0F;
   auto const farthest = static_cast<float>(max_depth_m);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -86,13 +130,8 @@ void clean(OrganizedCloud& cloud, CloudAxes axes, double max_depth_m) {
 
 ColoredCloud read_pcd(fs::path const& path, CloudAxes axes, double max_depth_m) {
   PcdHeader const header = read_pcd_header(path);
-  pcl::PCLPointCloud2 const data = read_by_pcl(path, header);
-  auto const x = offset_of(data, "x", false);
-  auto const y = offset_of(data, "y", false);
-  auto const z = offset_of(data, "z", false);
-  if (!x || !y || !z) {
-    throw InputError(path.string() + ": needs float fields x y z");
-  }
+  pcl::PCLPointCloud2 const data = read_by_pcl(path, header).data;
+  PointOffsets const offsets = offsets_in(data, path);
   auto color = offset_of(data, "rgba", true);
   color = color ? color : offset_of(data, "rgb", true);
   ColoredCloud result;
@@ -103,8 +142,7 @@ ColoredCloud read_pcd(fs::path const& path, CloudAxes axes, double max_depth_m) 
     result.color = Grid<Rgb>(width, height);
   }
   for (std::size_t i = 0; i < result.cloud_camera.size(); ++i) {
-    result.cloud_camera.set(i, {value_at<float>(data, i, *x), value_at<float>(data, i, *y),
-                                value_at<float>(data, i, *z)});
+    result.cloud_camera.set(i, point_at(data, i, offsets));
     if (color) {
       auto const packed = value_at<std::uint32_t>(data, i, *color);
       result.color[i] = {static_cast<std::uint8_t>(packed >> 16U & 255U),
@@ -116,9 +154,28 @@ ColoredCloud read_pcd(fs::path const& path, CloudAxes axes, double max_depth_m) 
   return result;
 }
 
+ViewedPoints read_pcd_points(fs::path const& path, CloudAxes axes) {
+  PclCloud const cloud = read_by_pcl(path, read_any_pcd_header(path));
+  PointOffsets const offsets = offsets_in(cloud.data, path);
+  std::size_t const count = cloud.data.data.size() / cloud.data.point_step;
+  ViewedPoints viewed;
+  viewed.viewpoint = cloud.viewpoint;
+  for (std::size_t i = 0; i < count; ++i) {
+    Eigen::Vector3f const point = point_at(cloud.data, i, offsets);
+    if (point.allFinite() && !point.isZero(0.0F)) {
+      viewed.points.push_back(point);
+    }
+  }
+  if (is_turned(viewed.points, axes)) {
+    viewed.viewpoint = turned(viewed.viewpoint);
+    std::ranges::transform(viewed.points, viewed.points.begin(), turned);
+  }
+  return viewed;
+}
+
 std::optional<LabelMap> read_pcd_labels(fs::path const& path) {
   PcdHeader const header = read_pcd_header(path);
-  pcl::PCLPointCloud2 const data = read_by_pcl(path, header);
+  pcl::PCLPointCloud2 const data = read_by_pcl(path, header).data;
   auto const offset = offset_of(data, "label", true);
   if (!offset) {
     return std::nullopt;

@@ -96,12 +96,23 @@ PcdHeader read_header(fs::path const& path) {
   return header;
 }
 
-void check_size(PcdHeader const& header, fs::path const& path) {
-  std::string const size = std::to_string(header.width) + "x" + std::to_string(header.height);
+std::string size_of(PcdHeader const& header) {
+  return std::to_string(header.width) + "x" + std::to_string(header.height);
+}
+
+void check_organised(PcdHeader const& header, fs::path const& path) {
   if (header.width < 2 || header.height < 2) {
-    fail(path, "not organised (" + size + "): an image of points is needed");
+    fail(path, "not organised (" + size_of(header) + "): an image of points is needed");
   }
   if (header.width > kMaxSidePx || header.height > kMaxSidePx) {
+    fail(path, "damaged PCD header: claims " + size_of(header) + " points");
+  }
+}
+
+void check_size(PcdHeader const& header, fs::path const& path) {
+  std::string const size = size_of(header);
+  constexpr std::size_t kMostPoints = kMaxSidePx * kMaxSidePx;
+  if (header.width > kMostPoints || header.height > kMostPoints / header.width) {
     fail(path, "damaged PCD header: claims " + size + " points");
   }
   if (header.points != header.width * header.height) {
@@ -175,17 +186,26 @@ void check_complete(PcdHeader const& header, fs::path const& path) {
   }
 }
 
-}  // namespace
-
-PcdHeader read_pcd_header(fs::path const& path) {
+PcdHeader header_of_file(fs::path const& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) {
     fail(path, "no such file");
   }
-  PcdHeader const header = read_header(path);
+  return read_header(path);
+}
+
+}  // namespace
+
+PcdHeader read_any_pcd_header(fs::path const& path) {
+  PcdHeader const header = header_of_file(path);
   check_size(header, path);
   check_complete(header, path);
   return header;
+}
+
+PcdHeader read_pcd_header(fs::path const& path) {
+  check_organised(header_of_file(path), path);
+  return read_any_pcd_header(path);
 }
 
 }  // namespace credo

@@ -24,5 +24,7 @@ struct PcdHeader {
 /// trusts the header: where header and data do not fit, it writes past its buffers or goes on in
 /// silence. Throws InputError: no such file, no or damaged header, not organised, cut short.
 PcdHeader read_pcd_header(std::filesystem::path const& path);
+/// The same of any cloud, organised or not.
+PcdHeader read_any_pcd_header(std::filesystem::path const& path);
 
 }  // namespace credo

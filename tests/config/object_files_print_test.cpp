@@ -25,6 +25,7 @@ void expect_same(ModelFile const& a, ModelFile const& b) {
   EXPECT_EQ(a.table_leg_m, b.table_leg_m);
   EXPECT_EQ(a.mesh, b.mesh);
   EXPECT_EQ(a.unit, b.unit);
+  EXPECT_EQ(a.one_sided, b.one_sided);
   EXPECT_EQ(a.symmetry.form, b.symmetry.form);
   EXPECT_EQ(a.symmetry.word, b.symmetry.word);
   EXPECT_EQ(a.symmetry.axis, b.symmetry.axis);
@@ -69,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "name: \"a: 'b'\"\nprimitive: {cylinder: {radius: 0.045, height: 0.26}}\n",
                     "primitive: {cylinder: {radius: 0.045}}\n",
                     "primitive: {table: {top: [0.8, 1.2], thickness: 0.04, height: 0.7, leg: 0.1}}",
-                    "mesh: \"a #1.ply\"\nunit: mm\n"));
+                    "mesh: \"a #1.ply\"\nunit: mm\n", "mesh: a.ply\none_sided: true\n"));
 
 INSTANTIATE_TEST_SUITE_P(Symmetries, ModelFiles,
                          testing::Values("symmetry: own\n", "symmetry: none\n",
@@ -112,6 +113,7 @@ primitive:
   table:
 mesh: ""  # a mesh's file, beside this one; it keeps its own frame
 unit: m  # of the mesh's numbers (m, mm)
+one_sided: false  # an open mesh whose triangles show their outside alone: what is behind was never seen
 symmetry: own  # own, none, {axis, point}, or the list of all turns that change nothing (own, none)
 )");
 }

@@ -118,6 +118,12 @@ TEST_F(ModelFileTest, AMeshIsTakenAsItComes) {
   expect_no_symmetry(mesh.symmetry);
 }
 
+TEST_F(ModelFileTest, AMeshIsSeenFromBothSidesUnlessToldOtherwise) {
+  EXPECT_FALSE(named("mesh: thing.ply\n").one_sided);
+  EXPECT_FALSE(named("primitive: {box: [1, 1, 1]}\n").one_sided);
+  EXPECT_TRUE(named("mesh: thing.ply\none_sided: true\n").one_sided);
+}
+
 TEST_F(ModelFileTest, AMeshIsInMetresUnlessToldOtherwise) {
   EXPECT_EQ(read_yaml<ModelFile>(path_, "mesh: a.ply\n").unit, LengthUnit::kMetre);
   EXPECT_EQ(read_yaml<ModelFile>(path_, "unit: m\n").unit, LengthUnit::kMetre);
@@ -237,6 +243,8 @@ INSTANTIATE_TEST_SUITE_P(
         Golden{"primitive: {box: [20, 15, 25]}\nunit: mm\n",
                "FILE: unit is that of a mesh's numbers; primitives are in metres"},
         Golden{"mesh: a.ply\nunit: mm\n", ""},
+        Golden{"primitive: {box: [1, 1, 1]}\none_sided: true\n",
+               "FILE: one_sided tells of a mesh; primitives are closed"},
         Golden{"primitive: {box: [1, 1, 1]}\nsymmetry: {axis: [0, 0, 0]}\n",
                "FILE: symmetry.axis must be a direction that is not 0, 0, 0"}));
 

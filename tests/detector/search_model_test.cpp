@@ -126,6 +126,43 @@ TEST(SearchModel, ASheetHasEachPointTwice) {
   }
 }
 
+TEST(SearchModel, AOneSidedSheetShowsItsOutsideAlone) {
+  ObjectModel object = sheet();
+  object.one_sided = true;
+  SearchModel const model = prepare_model(object);
+  ASSERT_GT(model.points_model.size(), 1000U);
+  for (Vector3f const& normal : model.normals_model) {
+    EXPECT_GT(normal.z(), 0.99F);
+  }
+  ModelView const& front = model.view_from({0.1F, 0.0F, 1.0F});
+  EXPECT_EQ(front.visible.size(), model.points_model.size());
+  EXPECT_NEAR(front.area_m2, 0.04F, 0.002F);
+  EXPECT_GT(front.outline.size(), 50U);
+  ModelView const& behind = model.view_from({0.1F, 0.0F, -1.0F});
+  EXPECT_TRUE(behind.visible.empty());
+  EXPECT_TRUE(behind.outline.empty());
+  EXPECT_EQ(behind.area_m2, 0.0F);
+}
+
+TEST(SearchModel, OfAOneSidedShellTheInsideHidesNothing) {
+  // A box without its lid: through it one looks at the back of its walls, which are not there.
+  ObjectModel object{"shell", mesh_of(crate({0.2, 0.12, 0.1})), {}};
+  auto& mesh = std::get<TriangleMesh>(object.shape);
+  std::erase_if(mesh.triangles, [&](auto const& triangle) {
+    return std::ranges::all_of(triangle,
+                               [&](std::uint32_t i) { return mesh.vertices[i].z() > 0.05F; });
+  });
+  ASSERT_EQ(mesh.triangles.size(), 10U);
+  object.one_sided = true;
+  SearchModel const model = prepare_model(object);
+  EXPECT_EQ(model.view_from({0, 0, 1}).area_m2, 0.0F);
+  EXPECT_NEAR(model.view_from({0, 0, -1}).area_m2, 0.2F * 0.12F, 0.002F);
+  // From aside and above only the near walls are seen.
+  for (std::uint16_t const i : model.view_from({1.0F, 0.0F, 0.6F}).visible) {
+    EXPECT_GT(model.normals_model[i].x(), 0.5F);
+  }
+}
+
 TEST(SearchModel, AFineMeshIsRenderedWithFewerTriangles) {
   ObjectModel const ring = ring_model(90, 40);
   auto const& mesh = std::get<TriangleMesh>(ring.shape);

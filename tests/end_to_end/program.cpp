@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -18,6 +19,8 @@ Program::Program(std::vector<std::string> arguments) {
     argv.push_back(argument.data());
   }
   argv.push_back(nullptr);
+  // A folder that cannot be: what one test's program keeps, another's must not find.
+  setenv("XDG_CACHE_HOME", "/dev/null", 1);
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   int const flags = O_WRONLY | O_CREAT | O_TRUNC;

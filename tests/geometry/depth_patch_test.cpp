@@ -269,5 +269,24 @@ TEST(DepthPatch, TheNearestIsSeen) {
   EXPECT_NEAR(depth_at(rendered(mesh), 31, 23), 1.0, 1e-5);
 }
 
+TEST(DepthPatch, WhatFacesTheCameraTurnsCounterClockwise) {
+  // Beside the axis a triangle may face the camera and yet lean away from the image's plane.
+  Mesh mesh;
+  mesh.add({-0.1F, 0.1F, 1.0F}, {0.1F, 0.1F, 1.0F}, {0.0F, -0.1F, 1.0F});  // y is down
+  mesh.add({0.1F, 0.1F, 1.0F}, {-0.1F, 0.1F, 1.0F}, {0.0F, -0.1F, 1.0F});
+  mesh.add({1.0F, -0.1F, 1.0F}, {1.0F, 0.1F, 1.0F}, {1.1F, 0.0F, 1.5F});
+  mesh.add({1.0F, 0.1F, 1.0F}, {1.0F, -0.1F, 1.0F}, {1.1F, 0.0F, 1.5F});
+  auto const facing = facing_camera(mesh.vertices, mesh.triangles);
+  ASSERT_EQ(facing.size(), 2U);
+  for (auto const& [a, b, c] : facing) {
+    // The literal test: along the ray to a corner the normal comes back.
+    Vector3f const normal =
+        (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+    EXPECT_LT(normal.dot(mesh.vertices[c]), 0.0F);
+  }
+  EXPECT_EQ(facing[0], mesh.triangles[0]);
+  EXPECT_EQ(facing[1][0] / 3, 3U);
+}
+
 }  // namespace
 }  // namespace credo::test

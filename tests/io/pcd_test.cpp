@@ -7,6 +7,7 @@
 
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 #include "support/temp_folder.hpp"
 
@@ -161,6 +162,58 @@ TEST_F(PcdTest, CloudsThatAreNoImages) {
                             "WIDTH 4\nHEIGHT 1\n") +
                      "DATA ascii\n" + kFourPoints),
             "not organised (4x1): an image of points is needed");
+}
+
+TEST_F(PcdTest, PointsAreReadOfAnyCloud) {
+  std::string const one_row =
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\n"
+      "TYPE F F F\nCOUNT 1 1 1\nWIDTH 4\nHEIGHT 1\nVIEWPOINT 0.5 -1 2 1 0 0 0\nPOINTS 4\n"
+      "DATA ascii\n";
+  write_text(path(), one_row + "1 2 3\nnan nan nan\n0 0 0\n-4 5 -6\n");
+  ViewedPoints const viewed = read_pcd_points(path(), CloudAxes::kOptical);
+  EXPECT_EQ(viewed.viewpoint, Eigen::Vector3f(0.5F, -1.0F, 2.0F));
+  EXPECT_THAT(viewed.points, testing::ElementsAre(Eigen::Vector3f(1.0F, 2.0F, 3.0F),
+                                                  Eigen::Vector3f(-4.0F, 5.0F, -6.0F)));
+  write_text(path(), header() + "DATA ascii\n" + kFourPoints);
+  EXPECT_EQ(read_pcd_points(path(), CloudAxes::kAuto).points.size(), 4U);
+}
+
+TEST_F(PcdTest, PointsAreTurnedAsCloudsAre) {
+  std::string const behind =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 1\n"
+      "VIEWPOINT 0.5 -1 2 1 0 0 0\nPOINTS 3\nDATA ascii\n1 2 -3\n1 2 3\n-4 5 -6\n";
+  write_text(path(), behind);
+  for (CloudAxes const axes : {CloudAxes::kAuto, CloudAxes::kYUpZBack}) {
+    ViewedPoints const viewed = read_pcd_points(path(), axes);
+    EXPECT_EQ(viewed.points.at(0), Eigen::Vector3f(1.0F, -2.0F, 3.0F));
+    EXPECT_EQ(viewed.viewpoint, Eigen::Vector3f(0.5F, 1.0F, -2.0F));
+  }
+  EXPECT_EQ(read_pcd_points(path(), CloudAxes::kOptical).points.at(0),
+            Eigen::Vector3f(1.0F, 2.0F, -3.0F));
+}
+
+TEST_F(PcdTest, PointsOfBadFilesAreRefused) {
+  auto const points_error = [&](std::string const& text) {
+    write_text(path(), text);
+    try {
+      std::ignore = read_pcd_points(path(), CloudAxes::kAuto);
+    } catch (InputError const& error) {
+      return std::string(error.what()).substr(path().string().size() + 2);
+    }
+    return std::string("no error");
+  };
+  std::string const fields = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
+  EXPECT_EQ(points_error(header(fields, "WIDTH 4\nHEIGHT 1\n") + "DATA ascii\n1 2 3\n4 5 6\n"),
+            "cut short, has 2 of 4 points");
+  EXPECT_EQ(points_error(header(fields, "WIDTH 67108865\nHEIGHT 1\n", "POINTS 67108865\n") +
+                         "DATA binary\n"),
+            "damaged PCD header: claims 67108865x1 points");
+  EXPECT_EQ(
+      points_error(header(fields, "WIDTH 8192\nHEIGHT 18446744073709551615\n") + "DATA binary\n"),
+      "damaged PCD header: claims 8192x18446744073709551615 points");
+  EXPECT_EQ(points_error(header("FIELDS x y w\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n") +
+                         "DATA ascii\n" + kFourPoints),
+            "needs float fields x y z");
 }
 
 TEST_F(PcdTest, CloudsWithoutCoordinates) {
