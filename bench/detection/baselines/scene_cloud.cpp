@@ -143,7 +143,13 @@ pcl::PointCloud<pcl::Normal> normals_of(OrganizedCloud const& cloud) {
 SceneCloud scene_cloud(Frame const& frame) {
   constexpr int kStep_px = 2;
   OrganizedCloud const& cloud = frame.cloud_camera;
-  SceneCloud scene{std::make_shared<NormalCloud>(), {}, 0, cloud.z, frame.intrinsics};
+  SceneCloud scene{
+      std::make_shared<NormalCloud>(),
+      {},
+      0,
+      Grid<std::uint8_t>((cloud.width() + 1) / kStep_px, (cloud.height() + 1) / kStep_px),
+      cloud.z,
+      frame.intrinsics};
   std::optional<Table> const table = find_table(cloud);
   pcl::PointCloud<pcl::Normal> const normals = normals_of(cloud);
   Segments const segments = convex_segments(cloud.z, frame.intrinsics.fx_px, {});
@@ -162,6 +168,7 @@ SceneCloud scene_cloud(Frame const& frame) {
       point.getVector3fMap() = p;
       point.getNormalVector3fMap() = normals[i].getNormalVector3fMap();
       scene.points->push_back(point);
+      scene.thing[Pixel{u / kStep_px, v / kStep_px}] = 1;
       int const next = static_cast<int>(numbers.size());
       scene.segment.push_back(numbers.try_emplace(segments.labels[i], next).first->second);
     }
