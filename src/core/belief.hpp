@@ -35,12 +35,8 @@ struct Look {
 /// all of it, that it has surely gone.
 enum class Verdict : std::uint8_t { kSeen, kGone, kSurelyGone };
 
-/// Everything accumulated about the floor (thesis 4.2). World frame.
-struct FloorBelief {
-  /// Unit, up.
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-  /// z of the plane below the points' centroid.
-  double height_m = 0.0;
+/// What is believed of a large surface, a floor or a wall, by its points. World frame.
+struct SurfaceBelief {
   double log_odds = 0.0;
   Evidence evidence = Evidence::kNotSeen;
   Account why;
@@ -53,24 +49,22 @@ struct FloorBelief {
   std::shared_ptr<PointList const> points = std::make_shared<PointList>();
 };
 
+/// Everything accumulated about the floor (thesis 4.2). World frame.
+struct FloorBelief : SurfaceBelief {
+  /// Unit, up.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  /// z of the plane below the points' centroid.
+  double height_m = 0.0;
+};
+
 /// A wall as a line segment on the floor, swept along z (thesis 4.2). World frame.
-struct WallBelief {
+struct WallBelief : SurfaceBelief {
   std::uint32_t id = 0;
   Plane plane_world;
   Eigen::Vector2d segment_start_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d segment_end_m = Eigen::Vector2d::Zero();
-  /// Union of all observations, thinned; shared between successive beliefs.
-  std::shared_ptr<PointList const> points = std::make_shared<PointList>();
   /// Pixels of all observations so far: the weight of the normal and offset in the next merge.
   double weight_pixels = 0.0;
-  double log_odds = 0.0;
-  Evidence evidence = Evidence::kNotSeen;
-  Account why;
-  /// What the last look that told of it said, and when and from where that was.
-  Verdict verdict = Verdict::kSeen;
-  Look last_look;
-  /// The most of the points looked at that ever agreed with one frame.
-  double most_agreeing = 0.0;
   /// Its code in the last frame's label image; none where that frame did not show it.
   std::optional<LabelCode> label;
 };
@@ -149,6 +143,8 @@ struct StuffBelief {
   /// When and from where it was last seen, or seen through.
   Look last_look;
   std::vector<OneWith> one_with;
+  /// The part of its last looks at which it had moved.
+  double moved_share = 0.0;
 
   [[nodiscard]] StuffCluster const& latest() const { return *recent_clusters.back(); }
 };

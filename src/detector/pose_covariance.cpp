@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "detector/open_turn.hpp"
 #include "detector/pose_refinement.hpp"
 
 namespace credo {
@@ -43,13 +44,14 @@ PoseDistribution with_covariance(SearchModel const& model, SearchScene const& sc
   }
   information.diagonal().head<3>().array() += 1.0 / (kUnknown_m * kUnknown_m);
   information.diagonal().tail<3>().array() += 1.0 / (kUnknown_rad * kUnknown_rad);
-  Matrix6d covariance = information.inverse();
+  OpenTurn const open = open_turn(model, scene, pose, information);
+  Matrix6d covariance = information.inverse() + open.deviation * open.deviation.transpose();
   covariance = (covariance + covariance.transpose()) / 2.0;
   Eigen::Vector3d const ray = pose.translation_m.cast<double>().normalized();
   covariance.topLeftCorner<3, 3>() +=
       kBiasAcross_m * kBiasAcross_m * Eigen::Matrix3d::Identity() +
       (kBiasAlongRay_m * kBiasAlongRay_m - kBiasAcross_m * kBiasAcross_m) * ray * ray.transpose();
-  return {se3(pose), covariance};
+  return {se3(open.pose), covariance};
 }
 
 }  // namespace credo

@@ -9,7 +9,9 @@ namespace credo {
 
 /// How sure the scene alone makes of a pose, in the camera frame (boxplus): no expectation enters.
 /// Along what cannot be seen, such as turns about a symmetry axis or shifts along a bare edge, it
-/// is a metre, or two radians. Positive definite.
+/// is a metre, or two radians. Where several turns explain the frame about as well, such as those
+/// of a mug whose handle is hidden, the mean is amid them and the covariance spreads over them
+/// (open_turn.hpp). Positive definite.
 [[nodiscard]] PoseDistribution with_covariance(SearchModel const& model, SearchScene const& scene,
                                                CameraPose const& pose);
 

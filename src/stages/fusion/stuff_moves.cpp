@@ -9,7 +9,6 @@
 #include "geometry/icp.hpp"
 #include "geometry/thickness.hpp"
 #include "stages/fusion/existence.hpp"
-#include "stages/fusion/stuff_one_with.hpp"
 
 namespace credo {
 namespace {
@@ -40,8 +39,7 @@ constexpr double kHardlyBelieved = 0.6;
 constexpr double kTimeOnItsWay_s = 0.5;
 
 bool moves_often(StuffBelief const& item) {
-  auto const entry = std::ranges::find(item.one_with, kItsWay, &OneWith::id);
-  return entry != item.one_with.end() && entry->evidence > kMovesOften;
+  return item.moved_share > kMovesOften;
 }
 
 /// Whether it arrived itself (BirthConfig::arrived_probability), a few looks ago.
@@ -220,15 +218,8 @@ bool has_moved(PointCounts const& look) {
 
 void count_look(StuffBelief& item, bool moved) {
   ++item.history_count;
-  auto entry = std::ranges::find(item.one_with, kItsWay, &OneWith::id);
-  if (entry == item.one_with.end()) {
-    if (!moved) {
-      return;
-    }
-    entry = item.one_with.insert(item.one_with.end(), OneWith{kItsWay, 0.0});
-  }
   auto const looks = static_cast<double>(std::min(item.history_count, kLooksRemembered));
-  entry->evidence += ((moved ? 1.0 : 0.0) - entry->evidence) / looks;
+  item.moved_share += ((moved ? 1.0 : 0.0) - item.moved_share) / looks;
 }
 
 bool is_on_its_way(StuffBelief const& item) {

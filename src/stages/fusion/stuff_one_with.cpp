@@ -48,12 +48,12 @@ void shows_alone(StuffBelief& item, std::vector<StuffBelief> const& stuff, doubl
     auto const other = std::ranges::find(stuff, entry.id, &StuffBelief::id);
     if (entry.id == kKnownThings) {
       entry.evidence -= news;
-    } else if (entry.id != kItsWay && (other == stuff.end() || other->label)) {
+    } else if (other == stuff.end() || other->label) {
       entry.evidence -= kOfOneApart * news;
     }
   }
   std::erase_if(item.one_with, [](OneWith const& entry) {
-    return entry.id != kItsWay && entry.evidence <= (entry.id == kKnownThings ? 0.0 : -kLongAlone);
+    return entry.evidence <= (entry.id == kKnownThings ? 0.0 : -kLongAlone);
   });
 }
 

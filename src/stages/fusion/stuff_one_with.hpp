@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "core/belief.hpp"
@@ -10,9 +9,6 @@ namespace credo {
 
 /// Stands for floor, walls and known objects in StuffBelief::one_with; no thing's id.
 inline constexpr std::uint32_t kKnownThings = 0;
-/// Stands there for where the thing itself was at the look before: its evidence is the part of the
-/// last looks at which it had moved (count_look). No thing's id.
-inline constexpr std::uint32_t kItsWay = std::numeric_limits<std::uint32_t>::max();
 
 /// Adds a look in which `item` showed in another thing's clusters to what says that the two are
 /// one; whether that is enough. `news` is how much of the look counts (novelty). What showed alone

@@ -23,9 +23,7 @@ PointCounts look_at(PointList const& points_world, SightView const& view) {
   return counts;
 }
 
-/// Of a floor or a wall.
-template <typename Surface>
-void begin(Surface& surface, Look const& now, FusionConfig const& config) {
+void begin(SurfaceBelief& surface, Look const& now, FusionConfig const& config) {
   surface.log_odds = log_odds_of(config.new_probability);
   surface.last_look = now;
   surface.evidence = Evidence::kSeen;
@@ -34,8 +32,7 @@ void begin(Surface& surface, Look const& now, FusionConfig const& config) {
   surface.why.news = 1.0;
 }
 
-template <typename Surface>
-void look_again(Surface& surface, PointCounts const& counts, bool is_shown, Look const& now,
+void look_again(SurfaceBelief& surface, PointCounts const& counts, bool is_shown, Look const& now,
                 FusionConfig const& config) {
   std::optional<Finding> const finding = finding_of(counts, surface.most_agreeing, is_shown);
   Eigen::Vector3d const middle = centroid_of(*surface.points);
@@ -49,8 +46,7 @@ void look_again(Surface& surface, PointCounts const& counts, bool is_shown, Look
       std::max(surface.most_agreeing, static_cast<double>(counts[PointState::kAgrees]));
 }
 
-template <typename Surface>
-bool is_forgotten(Surface const& surface, ExistenceConfig const& config) {
+bool is_forgotten(SurfaceBelief const& surface, ExistenceConfig const& config) {
   return probability_of(surface.log_odds) < config.min_probability;
 }
 

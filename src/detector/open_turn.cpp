@@ -1,0 +1,115 @@
+#include "detector/open_turn.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "detector/verification.hpp"
+
+namespace credo {
+namespace {
+
+constexpr double kPlain_rad = 0.035;
+constexpr double kStep_rad = std::numbers::pi / 18.0;
+constexpr int kMostSteps = 18;  // of half a turn
+/// What verification finds so much less likely is not followed on.
+constexpr float kDrop = 2.0F;
+/// A turn is open where what explains the frame spreads so far.
+constexpr double kLeastSpread_rad = 0.15;
+
+/// A turn about a line that is fixed in the camera frame.
+struct Hinge {
+  /// Unit.
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();
+  /// Of the small turns, by the information.
+  double deviation_rad = 0.0;
+
+  [[nodiscard]] CameraPose turned(CameraPose const& pose, double angle_rad) const {
+    Eigen::Matrix3f const turn =
+        Eigen::AngleAxisd(angle_rad, direction).toRotationMatrix().cast<float>();
+    Eigen::Vector3f const on_line = point_m.cast<float>();
+    return {turn * pose.rotation, turn * (pose.translation_m - on_line) + on_line};
+  }
+  /// Of the origin and the rotation, by a small turn.
+  [[nodiscard]] Vector6d motion_of(CameraPose const& pose) const {
+    Vector6d motion;
+    motion << direction.cross(pose.translation_m.cast<double>() - point_m), direction;
+    return motion;
+  }
+};
+
+/// The turn that is told least of, with the shift that goes best with it.
+Hinge loosest(Matrix6d const& information, CameraPose const& pose) {
+  Eigen::Matrix3d const of_shifts = information.topLeftCorner<3, 3>();
+  Eigen::Matrix3d const across = information.topRightCorner<3, 3>();
+  Eigen::Matrix3d const shifts_per_turn = -of_shifts.inverse() * across;
+  Eigen::Matrix3d const of_turns =
+      information.bottomRightCorner<3, 3>() + across.transpose() * shifts_per_turn;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> const solver(of_turns);
+  Hinge hinge;
+  hinge.direction = solver.eigenvectors().col(0);
+  // The line about which the origin moves by that shift, as far as it moves across it.
+  Eigen::Vector3d const shift = shifts_per_turn * hinge.direction;
+  hinge.point_m = pose.translation_m.cast<double>() + hinge.direction.cross(shift);
+  hinge.deviation_rad = 1.0 / std::sqrt(std::max(solver.eigenvalues()[0], 1e-12));
+  return hinge;
+}
+
+struct Turned {
+  double angle_rad = 0.0;
+  float log_odds = 0.0F;
+};
+
+/// From the pose to one side.
+void follow(SearchModel const& model, SearchScene const& scene, CameraPose const& pose,
+            Hinge const& hinge, double step_rad, std::vector<Turned>& turns) {
+  float best = turns.front().log_odds;
+  for (int k = 1; k <= kMostSteps; ++k) {
+    Turned turned{k * step_rad, 0.0F};
+    turned.log_odds = verified(model, scene, hinge.turned(pose, turned.angle_rad), {}).log_odds;
+    best = std::max(best, turned.log_odds);
+    if (turned.log_odds < best - kDrop) {
+      return;
+    }
+    turns.push_back(turned);
+  }
+}
+
+}  // namespace
+
+OpenTurn open_turn(SearchModel const& model, SearchScene const& scene, CameraPose const& pose,
+                   Matrix6d const& information) {
+  OpenTurn open{pose};
+  Hinge const hinge = loosest(information, pose);
+  if (model.symmetry.axis || hinge.deviation_rad < kPlain_rad) {
+    return open;
+  }
+  std::vector<Turned> turns = {{0.0, verified(model, scene, pose, {}).log_odds}};
+  follow(model, scene, pose, hinge, kStep_rad, turns);
+  follow(model, scene, pose, hinge, -kStep_rad, turns);
+  float const best = std::ranges::max(turns, {}, &Turned::log_odds).log_odds;
+  double weights = 0.0;
+  double sum_rad = 0.0;
+  double squares_rad2 = 0.0;
+  for (Turned const& turned : turns) {
+    double const weight = std::exp(static_cast<double>(turned.log_odds - best));
+    weights += weight;
+    sum_rad += weight * turned.angle_rad;
+    squares_rad2 += weight * turned.angle_rad * turned.angle_rad;
+  }
+  double const mean_rad = sum_rad / weights;
+  double const spread_rad = std::sqrt(std::max(0.0, squares_rad2 / weights - mean_rad * mean_rad));
+  if (spread_rad < kLeastSpread_rad) {
+    return open;
+  }
+  open.pose = hinge.turned(pose, mean_rad);
+  open.deviation = spread_rad * hinge.motion_of(open.pose);
+  return open;
+}
+
+}  // namespace credo

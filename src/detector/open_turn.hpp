@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/se3.hpp"
+#include "detector/camera_pose.hpp"
+#include "detector/search_model.hpp"
+#include "detector/search_scene.hpp"
+
+namespace credo {
+
+/// What a frame leaves open of a pose beyond its neighbourhood: the handle of a mug may be anywhere
+/// behind it.
+struct OpenTurn {
+  /// Amid all turns that explain the frame about as well.
+  CameraPose pose;
+  /// How far they spread to either side of it, one standard deviation, as boxplus takes it in the
+  /// camera frame; 0 where only one turn does.
+  Vector6d deviation = Vector6d::Zero();
+};
+
+/// Follows the turn that the frame tells least of, by `information` (of boxplus errors at the
+/// model's origin, camera frame, positive definite), from the pose on to both sides as long as
+/// verification takes it for about as likely. A turn that is told to two degrees is not followed,
+/// nor any of a model with a symmetry axis: there it changes nothing.
+[[nodiscard]] OpenTurn open_turn(SearchModel const& model, SearchScene const& scene,
+                                 CameraPose const& pose, Matrix6d const& information);
+
+}  // namespace credo
