@@ -4,12 +4,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <random>
 
 #include "detector/facet_proposals.hpp"
+#include "detector/open_turn.hpp"
 #include "detector/pair_proposals.hpp"
 #include "detector/polishing.hpp"
+#include "detector/pose_covariance.hpp"
 #include "detector/pose_distance.hpp"
 #include "detector/pose_refinement.hpp"
 #include "detector/pose_score.hpp"
@@ -34,6 +38,9 @@ struct FunnelStep {
   std::size_t score_points;
 };
 
+constexpr std::size_t kRoughPoints = 40;
+/// So many proposals are looked at more closely.
+constexpr std::size_t kRoughSurvivors = 600;
 constexpr std::size_t kCoarsePoints = 100;
 constexpr std::array<FunnelStep, 3> kFunnel = {
     FunnelStep{120, 0.15F, {4, 120, 0.030F}, 250},
@@ -43,6 +50,8 @@ constexpr std::array<FunnelStep, 3> kFunnel = {
 /// So many poses of each segment go on, however poor beside others.
 constexpr int kOfEachSegment = 2;
 constexpr float kCandidatesApart_diameters = 0.10F;
+/// So many of the likeliest are turned about what the frame tells least of.
+constexpr std::size_t kTurnedAround = 3;
 /// Of one model's search, so that it is the same on any thread.
 constexpr std::uint64_t kDrawSeed = 1;
 
@@ -97,6 +106,25 @@ void align(std::vector<Scored>& poses, SearchModel const& model, SearchScene con
   }
 }
 
+/// The likeliest so many, none near to a likelier one; likeliest first.
+std::vector<PoseCandidate> likeliest(std::vector<PoseCandidate> candidates,
+                                     PoseDistance const& distance, float apart_m,
+                                     std::size_t count) {
+  std::ranges::stable_sort(candidates, std::greater{}, [](PoseCandidate const& candidate) {
+    return candidate.verification.log_odds;
+  });
+  std::vector<PoseCandidate> kept;
+  for (PoseCandidate& candidate : candidates) {
+    bool const apart = std::ranges::none_of(kept, [&](PoseCandidate const& better) {
+      return distance(better.pose, candidate.pose) < apart_m;
+    });
+    if (apart && kept.size() < count) {
+      kept.push_back(std::move(candidate));
+    }
+  }
+  return kept;
+}
+
 }  // namespace
 
 std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable const& pairs,
@@ -108,8 +136,15 @@ std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable
   for (auto const& proposals :
        {propose_by_pairs(model, pairs, scene), propose_by_facets(model, scene)}) {
     for (Proposal const& proposal : proposals) {
-      poses.push_back({proposal.pose, proposal.segment, score(proposal.pose, kCoarsePoints)});
+      poses.push_back({proposal.pose, proposal.segment, score.rough(proposal.pose, kRoughPoints)});
     }
+  }
+  if (poses.size() > kRoughSurvivors) {
+    sort_best_first(poses);
+    poses.resize(kRoughSurvivors);
+  }
+  for (Scored& pose : poses) {
+    pose.score = score(pose.pose, kCoarsePoints);
   }
   for (FunnelStep const& step : kFunnel) {
     poses = survivors(std::move(poses), distance, step.apart_diameters * model.diameter_m,
@@ -128,11 +163,15 @@ std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable
   for (Scored const& pose : poses) {
     candidates.push_back(polished(model, scene, pose.pose));
   }
-  std::ranges::stable_sort(candidates, std::greater{}, [](PoseCandidate const& candidate) {
-    return candidate.verification.log_odds;
-  });
-  candidates.resize(std::min(candidates.size(), max_candidates));
-  return candidates;
+  float const apart_m = kCandidatesApart_diameters * model.diameter_m;
+  candidates = likeliest(std::move(candidates), distance, apart_m, max_candidates);
+  std::size_t const found = std::min(kTurnedAround, candidates.size());
+  for (std::size_t i = 0; i < found; ++i) {
+    std::ranges::move(other_turns(model, scene, candidates[i],
+                                  pose_information(model, scene, candidates[i].pose)),
+                      std::back_inserter(candidates));
+  }
+  return likeliest(std::move(candidates), distance, apart_m, max_candidates);
 }
 
 }  // namespace credo

@@ -5,9 +5,14 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <functional>
 #include <numbers>
+#include <optional>
 #include <vector>
 
+#include "detector/pose_score.hpp"
 #include "detector/verification.hpp"
 
 namespace credo {
@@ -18,6 +23,10 @@ constexpr double kStep_rad = std::numbers::pi / 18.0;
 constexpr int kMostSteps = 18;  // of half a turn
 /// What verification finds so much less likely is not followed on.
 constexpr float kDrop = 2.0F;
+/// Other turns are at least so many steps away from the pose's own and from each other.
+constexpr int kApart_steps = 3;
+constexpr std::size_t kMostOtherTurns = 4;
+constexpr std::size_t kScorePoints = 250;
 /// A turn is open where what explains the frame spreads so far.
 constexpr double kLeastSpread_rad = 0.15;
 
@@ -26,8 +35,6 @@ struct Hinge {
   /// Unit.
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d point_m = Eigen::Vector3d::Zero();
-  /// Of the small turns, by the information.
-  double deviation_rad = 0.0;
 
   [[nodiscard]] CameraPose turned(CameraPose const& pose, double angle_rad) const {
     Eigen::Matrix3f const turn =
@@ -43,8 +50,9 @@ struct Hinge {
   }
 };
 
-/// The turn that is told least of, with the shift that goes best with it.
-Hinge loosest(Matrix6d const& information, CameraPose const& pose) {
+/// The turn that is told least of, with the shift that goes best with it; none where that is plain.
+std::optional<Hinge> loosest(SearchModel const& model, Matrix6d const& information,
+                             CameraPose const& pose) {
   Eigen::Matrix3d const of_shifts = information.topLeftCorner<3, 3>();
   Eigen::Matrix3d const across = information.topRightCorner<3, 3>();
   Eigen::Matrix3d const shifts_per_turn = -of_shifts.inverse() * across;
@@ -56,8 +64,8 @@ Hinge loosest(Matrix6d const& information, CameraPose const& pose) {
   // The line about which the origin moves by that shift, as far as it moves across it.
   Eigen::Vector3d const shift = shifts_per_turn * hinge.direction;
   hinge.point_m = pose.translation_m.cast<double>() + hinge.direction.cross(shift);
-  hinge.deviation_rad = 1.0 / std::sqrt(std::max(solver.eigenvalues()[0], 1e-12));
-  return hinge;
+  bool const plain = solver.eigenvalues()[0] > 1.0 / (kPlain_rad * kPlain_rad);
+  return plain || model.symmetry.axis ? std::nullopt : std::optional(hinge);
 }
 
 struct Turned {
@@ -85,13 +93,13 @@ void follow(SearchModel const& model, SearchScene const& scene, CameraPose const
 OpenTurn open_turn(SearchModel const& model, SearchScene const& scene, CameraPose const& pose,
                    Matrix6d const& information) {
   OpenTurn open{pose};
-  Hinge const hinge = loosest(information, pose);
-  if (model.symmetry.axis || hinge.deviation_rad < kPlain_rad) {
+  std::optional<Hinge> const hinge = loosest(model, information, pose);
+  if (!hinge) {
     return open;
   }
   std::vector<Turned> turns = {{0.0, verified(model, scene, pose, {}).log_odds}};
-  follow(model, scene, pose, hinge, kStep_rad, turns);
-  follow(model, scene, pose, hinge, -kStep_rad, turns);
+  follow(model, scene, pose, *hinge, kStep_rad, turns);
+  follow(model, scene, pose, *hinge, -kStep_rad, turns);
   float const best = std::ranges::max(turns, {}, &Turned::log_odds).log_odds;
   double weights = 0.0;
   double sum_rad = 0.0;
@@ -107,9 +115,40 @@ OpenTurn open_turn(SearchModel const& model, SearchScene const& scene, CameraPos
   if (spread_rad < kLeastSpread_rad) {
     return open;
   }
-  open.pose = hinge.turned(pose, mean_rad);
-  open.deviation = spread_rad * hinge.motion_of(open.pose);
+  open.pose = hinge->turned(pose, mean_rad);
+  open.deviation = spread_rad * hinge->motion_of(open.pose);
   return open;
+}
+
+std::vector<PoseCandidate> other_turns(SearchModel const& model, SearchScene const& scene,
+                                       PoseCandidate const& candidate,
+                                       Matrix6d const& information) {
+  std::optional<Hinge> const hinge = loosest(model, information, candidate.pose);
+  if (!hinge) {
+    return {};
+  }
+  PoseScore const score(model, scene);
+  struct Scored {
+    int step;
+    float score;
+  };
+  std::vector<Scored> around;
+  for (int step = kApart_steps; step <= 2 * kMostSteps - kApart_steps; ++step) {
+    around.push_back({step, score(hinge->turned(candidate.pose, step * kStep_rad), kScorePoints)});
+  }
+  std::ranges::stable_sort(around, std::greater{}, &Scored::score);
+  std::vector<int> taken;
+  std::vector<PoseCandidate> others;
+  for (Scored const& turn : around) {
+    bool const apart = std::ranges::none_of(
+        taken, [&](int other) { return std::abs(other - turn.step) < kApart_steps; });
+    if (apart && taken.size() < kMostOtherTurns) {
+      taken.push_back(turn.step);
+      others.push_back(
+          polished(model, scene, hinge->turned(candidate.pose, turn.step * kStep_rad)));
+    }
+  }
+  return others;
 }
 
 }  // namespace credo

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "core/se3.hpp"
 #include "detector/camera_pose.hpp"
+#include "detector/polishing.hpp"
 #include "detector/search_model.hpp"
 #include "detector/search_scene.hpp"
 
@@ -23,5 +26,13 @@ struct OpenTurn {
 /// nor any of a model with a symmetry axis: there it changes nothing.
 [[nodiscard]] OpenTurn open_turn(SearchModel const& model, SearchScene const& scene,
                                  CameraPose const& pose, Matrix6d const& information);
+
+/// The other turns about the same line, all around, that explain the frame best: at most two,
+/// polished, each more than 20 degrees from the candidate's own. A model that is all but round is
+/// found by its roundness, whichever way its handle is. None where open_turn follows none.
+[[nodiscard]] std::vector<PoseCandidate> other_turns(SearchModel const& model,
+                                                     SearchScene const& scene,
+                                                     PoseCandidate const& candidate,
+                                                     Matrix6d const& information);
 
 }  // namespace credo

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <unordered_map>
 
 namespace credo {
@@ -14,11 +15,13 @@ namespace {
 constexpr std::size_t kTurns = 32;
 constexpr unsigned kTurnShift = 11;  // of 16 bits
 constexpr int kLeastSegment_px = 60;
-constexpr std::size_t kKeysPerReference = 16;
-constexpr std::size_t kFewestReferences = 5;
-constexpr std::size_t kMostReferences = 12;
-constexpr std::size_t kMostPeaks = 3;
-constexpr float kLeastPeak = 0.7F;
+constexpr std::size_t kKeysPerReference = 8;
+constexpr std::size_t kFewestReferences = 8;
+constexpr std::size_t kMostReferences = 24;
+constexpr std::size_t kMostPeaks = 6;
+constexpr float kLeastPeak = 0.5F;
+/// Pairs that are longer seldom show both ends, and cost most.
+constexpr float kReach_diameters = 0.6F;
 constexpr std::uint16_t kSameSegmentVotes = 2;
 
 /// A point of the scene that pairs begin and end with.
@@ -199,7 +202,7 @@ std::vector<std::uint32_t> references_of(std::vector<Key> const& keys, SearchSce
 std::vector<Proposal> propose_by_pairs(SearchModel const& model, PairTable const& pairs,
                                        SearchScene const& scene) {
   std::vector<Key> const keys = keys_of(scene, model, pairs.step_m());
-  KeyCells const cells(keys, model.diameter_m);
+  KeyCells const cells(keys, kReach_diameters * model.diameter_m);
   Votes votes(pairs.references().size());
   std::vector<Proposal> proposals;
   for (std::uint32_t const reference : references_of(keys, scene, model)) {
@@ -210,11 +213,14 @@ std::vector<Proposal> propose_by_pairs(SearchModel const& model, PairTable const
       if (&to == &from) {
         return;
       }
-      Eigen::Vector4f const feature =
-          PairFeature::of(from.point, from.normal, to.point, to.normal, pairs.step_m());
+      std::span<PairTable::Entry const> const alike = pairs.like(
+          PairFeature::of(from.point, from.normal, to.point, to.normal, pairs.step_m()));
+      if (alike.size() > pairs.references().size()) {
+        return;  // such pairs are all over the model: they tell no place on it
+      }
       std::uint16_t const turn = coded_turn(frame.turn_of(to.point));
       std::uint16_t const count = to.segment == from.segment ? kSameSegmentVotes : 1;
-      for (PairTable::Entry const& entry : pairs.like(feature)) {
+      for (PairTable::Entry const& entry : alike) {
         votes.add(entry.reference, static_cast<std::uint16_t>(turn - entry.turn), count);
       }
     });

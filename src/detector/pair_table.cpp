@@ -13,13 +13,22 @@
 namespace credo {
 namespace {
 
-/// Spacing of the points that are paired, and step of their distances, in diameters.
+/// Spacing of the points that are paired, and step of their distances, in diameters: the first, but
+/// down to the second for slender things, which would be left with few points, and those coarse
+/// beside their thickness.
 constexpr float kStep_diameters = 0.05F;
+constexpr float kLeastStep_diameters = 0.022F;
+constexpr float kPointsWanted = 400.0F;
 /// A pair so near to the border of its cell, in steps, counts in the neighbour too.
 constexpr float kSpill_steps = 0.3F;
 constexpr float kTurn = 2.0F * std::numbers::pi_v<float>;
 
 using ViewSet = std::bitset<162>;
+
+float step_of(SearchModel const& model) {
+  return std::clamp(std::sqrt(model.surface_m2 / kPointsWanted),
+                    kLeastStep_diameters * model.diameter_m, kStep_diameters * model.diameter_m);
+}
 
 std::vector<ViewSet> views_showing(SearchModel const& model) {
   std::vector<ViewSet> showing(model.points_model.size());
@@ -92,8 +101,8 @@ float NormalFrame::turn_of(Eigen::Vector3f const& other) const {
 }
 
 PairTable::PairTable(SearchModel const& model)
-    : step_m_(kStep_diameters * model.diameter_m),
-      distance_steps_(static_cast<int>(std::ceil(1.0F / kStep_diameters)) + 1) {
+    : step_m_(step_of(model)),
+      distance_steps_(static_cast<int>(std::ceil(model.diameter_m / step_m_)) + 1) {
   for (std::uint32_t const i : apart(model.points_model, step_m_)) {
     references_.push_back(static_cast<std::uint16_t>(i));
   }

@@ -34,8 +34,8 @@ void forget_turn(Matrix6d& information, SymmetryAxis const& axis, CameraPose con
 
 }  // namespace
 
-PoseDistribution with_covariance(SearchModel const& model, SearchScene const& scene,
-                                 CameraPose const& pose) {
+Matrix6d pose_information(SearchModel const& model, SearchScene const& scene,
+                          CameraPose const& pose) {
   PoseEvidence const evidence = evidence_of(model, scene, pose, kPoints);
   Matrix6d information =
       evidence.information * (kEffectiveShare / std::max(1.0, evidence.mean_squared_residual));
@@ -44,6 +44,12 @@ PoseDistribution with_covariance(SearchModel const& model, SearchScene const& sc
   }
   information.diagonal().head<3>().array() += 1.0 / (kUnknown_m * kUnknown_m);
   information.diagonal().tail<3>().array() += 1.0 / (kUnknown_rad * kUnknown_rad);
+  return information;
+}
+
+PoseDistribution with_covariance(SearchModel const& model, SearchScene const& scene,
+                                 CameraPose const& pose) {
+  Matrix6d const information = pose_information(model, scene, pose);
   OpenTurn const open = open_turn(model, scene, pose, information);
   Matrix6d covariance = information.inverse() + open.deviation * open.deviation.transpose();
   covariance = (covariance + covariance.transpose()) / 2.0;

@@ -36,15 +36,26 @@ PoseScore::PoseScore(SearchModel const& model, SearchScene const& scene)
 }
 
 float PoseScore::operator()(CameraPose const& pose, std::size_t points) const {
+  ModelView const* view = view_of(pose);
+  return view != nullptr ? fit(*view, pose, points) - outline_loss(*view, pose) : kWorst;
+}
+
+float PoseScore::rough(CameraPose const& pose, std::size_t points) const {
+  ModelView const* view = view_of(pose);
+  return view != nullptr ? fit(*view, pose, points) : kWorst;
+}
+
+ModelView const* PoseScore::view_of(CameraPose const& pose) const {
   Eigen::Vector3f const centre = pose * model_.centre_model;
   if (centre.z() <= model_.radius_m * 0.5F) {
-    return kWorst;
+    return nullptr;
   }
   ModelView const& view = model_.view_from(-(pose.rotation.transpose() * centre));
+  return view.visible.empty() ? nullptr : &view;
+}
+
+float PoseScore::fit(ModelView const& view, CameraPose const& pose, std::size_t points) const {
   std::size_t const count = std::min(points, view.visible.size());
-  if (count == 0) {
-    return kWorst;
-  }
   SceneProjection const project(scene_);
   Counts sum;
   for (std::size_t k = 0; k < count; ++k) {
@@ -75,9 +86,8 @@ float PoseScore::operator()(CameraPose const& pose, std::size_t points) const {
       sum.in += normal_worth(cosine) * std::min(1.0F, share);
     }
   }
-  float const fit = (sum.in - kViolationWeight * sum.violated) /
-                    (static_cast<float>(count) - kOccludedWeight * sum.occluded + 1.0F);
-  return fit - outline_loss(view, pose);
+  return (sum.in - kViolationWeight * sum.violated) /
+         (static_cast<float>(count) - kOccludedWeight * sum.occluded + 1.0F);
 }
 
 float PoseScore::outline_loss(ModelView const& view, CameraPose const& pose) const {

@@ -21,12 +21,18 @@ public:
   /// from which a one-sided model shows nothing, has kWorst.
   [[nodiscard]] float operator()(CameraPose const& pose, std::size_t points) const;
 
+  /// The same without the silhouette, of few points: for a first choice among thousands.
+  [[nodiscard]] float rough(CameraPose const& pose, std::size_t points) const;
+
   static constexpr float kWorst = -10.0F;
 
 private:
   [[nodiscard]] bool background(ScenePixel const& pixel) const {
     return pixel.plane != kNoPlane && large_plane_[pixel.plane];
   }
+  /// The view of a pose; null where it is not before the camera, or shows nothing.
+  [[nodiscard]] ModelView const* view_of(CameraPose const& pose) const;
+  [[nodiscard]] float fit(ModelView const& view, CameraPose const& pose, std::size_t points) const;
   [[nodiscard]] float outline_loss(ModelView const& view, CameraPose const& pose) const;
 
   SearchModel const& model_;
