@@ -50,8 +50,12 @@ constexpr std::array<FunnelStep, 3> kFunnel = {
 /// So many poses of each segment go on, however poor beside others.
 constexpr int kOfEachSegment = 2;
 constexpr float kCandidatesApart_diameters = 0.10F;
-/// So many of the likeliest are turned about what the frame tells least of.
+/// So many of the likeliest are polished,
+constexpr std::size_t kPolished = 12;
+/// and so many of those then turned about what the frame tells least of.
 constexpr std::size_t kTurnedAround = 3;
+/// Poses whose centres are so near to each other compete for one place.
+constexpr float kOnePlace_diameters = 0.3F;
 /// Of one model's search, so that it is the same on any thread.
 constexpr std::uint64_t kDrawSeed = 1;
 
@@ -125,6 +129,26 @@ std::vector<PoseCandidate> likeliest(std::vector<PoseCandidate> candidates,
   return kept;
 }
 
+/// Holds those in one place against each other.
+void compare(std::vector<PoseCandidate>& candidates, SearchModel const& model) {
+  float const one_place_m = kOnePlace_diameters * model.diameter_m;
+  std::vector<int> most_net_px;
+  for (PoseCandidate const& candidate : candidates) {
+    Eigen::Vector3f const centre = candidate.pose * model.centre_model;
+    int most = 0;
+    for (PoseCandidate const& other : candidates) {
+      if ((other.pose * model.centre_model - centre).norm() < one_place_m) {
+        most = std::max(most, other.verification.net_px());
+      }
+    }
+    most_net_px.push_back(most);
+  }
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    Verification& verification = candidates[i].verification;
+    verification.log_odds = log_odds_beside(verification, most_net_px[i]);
+  }
+}
+
 }  // namespace
 
 std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable const& pairs,
@@ -161,9 +185,13 @@ std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable
   std::vector<PoseCandidate> candidates;
   candidates.reserve(poses.size());
   for (Scored const& pose : poses) {
-    candidates.push_back(polished(model, scene, pose.pose));
+    candidates.push_back({pose.pose, verified(model, scene, pose.pose, {})});
   }
   float const apart_m = kCandidatesApart_diameters * model.diameter_m;
+  candidates = likeliest(std::move(candidates), distance, apart_m, kPolished);
+  for (PoseCandidate& candidate : candidates) {
+    candidate = polished(model, scene, std::move(candidate));
+  }
   candidates = likeliest(std::move(candidates), distance, apart_m, max_candidates);
   std::size_t const found = std::min(kTurnedAround, candidates.size());
   for (std::size_t i = 0; i < found; ++i) {
@@ -171,6 +199,7 @@ std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable
                                   pose_information(model, scene, candidates[i].pose)),
                       std::back_inserter(candidates));
   }
+  compare(candidates, model);
   return likeliest(std::move(candidates), distance, apart_m, max_candidates);
 }
 

@@ -10,6 +10,7 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "detector/pose_score.hpp"
@@ -25,7 +26,7 @@ constexpr int kMostSteps = 18;  // of half a turn
 constexpr float kDrop = 2.0F;
 /// Other turns are at least so many steps away from the pose's own and from each other.
 constexpr int kApart_steps = 3;
-constexpr std::size_t kMostOtherTurns = 4;
+constexpr std::size_t kMostOtherTurns = 6;
 constexpr std::size_t kScorePoints = 250;
 /// A turn is open where what explains the frame spreads so far.
 constexpr double kLeastSpread_rad = 0.15;
@@ -70,22 +71,47 @@ std::optional<Hinge> loosest(SearchModel const& model, Matrix6d const& informati
 
 struct Turned {
   double angle_rad = 0.0;
-  float log_odds = 0.0F;
+  Verification verification;
 };
 
 /// From the pose to one side.
 void follow(SearchModel const& model, SearchScene const& scene, CameraPose const& pose,
             Hinge const& hinge, double step_rad, std::vector<Turned>& turns) {
-  float best = turns.front().log_odds;
+  float best = turns.front().verification.log_odds;
   for (int k = 1; k <= kMostSteps; ++k) {
-    Turned turned{k * step_rad, 0.0F};
-    turned.log_odds = verified(model, scene, hinge.turned(pose, turned.angle_rad), {}).log_odds;
-    best = std::max(best, turned.log_odds);
-    if (turned.log_odds < best - kDrop) {
+    double const angle_rad = k * step_rad;
+    Verification verification = verified(model, scene, hinge.turned(pose, angle_rad), {});
+    best = std::max(best, verification.log_odds);
+    if (verification.log_odds < best - kDrop) {
       return;
     }
-    turns.push_back(turned);
+    turns.push_back({angle_rad, std::move(verification)});
   }
+}
+
+/// Of all that was followed, mean and standard deviation, each as likely as it is beside the
+/// others.
+struct Spread {
+  double mean_rad = 0.0;
+  double deviation_rad = 0.0;
+};
+Spread spread_of(std::vector<Turned> const& turns) {
+  int most_net_px = 0;
+  for (Turned const& turned : turns) {
+    most_net_px = std::max(most_net_px, turned.verification.net_px());
+  }
+  double weights = 0.0;
+  double sum_rad = 0.0;
+  double squares_rad2 = 0.0;
+  for (Turned const& turned : turns) {
+    double const weight =
+        std::exp(static_cast<double>(log_odds_beside(turned.verification, most_net_px)));
+    weights += weight;
+    sum_rad += weight * turned.angle_rad;
+    squares_rad2 += weight * turned.angle_rad * turned.angle_rad;
+  }
+  double const mean_rad = sum_rad / weights;
+  return {mean_rad, std::sqrt(std::max(0.0, squares_rad2 / weights - mean_rad * mean_rad))};
 }
 
 }  // namespace
@@ -97,26 +123,18 @@ OpenTurn open_turn(SearchModel const& model, SearchScene const& scene, CameraPos
   if (!hinge) {
     return open;
   }
-  std::vector<Turned> turns = {{0.0, verified(model, scene, pose, {}).log_odds}};
-  follow(model, scene, pose, *hinge, kStep_rad, turns);
-  follow(model, scene, pose, *hinge, -kStep_rad, turns);
-  float const best = std::ranges::max(turns, {}, &Turned::log_odds).log_odds;
-  double weights = 0.0;
-  double sum_rad = 0.0;
-  double squares_rad2 = 0.0;
-  for (Turned const& turned : turns) {
-    double const weight = std::exp(static_cast<double>(turned.log_odds - best));
-    weights += weight;
-    sum_rad += weight * turned.angle_rad;
-    squares_rad2 += weight * turned.angle_rad * turned.angle_rad;
-  }
-  double const mean_rad = sum_rad / weights;
-  double const spread_rad = std::sqrt(std::max(0.0, squares_rad2 / weights - mean_rad * mean_rad));
-  if (spread_rad < kLeastSpread_rad) {
+  std::vector<Turned> turns = {{0.0, verified(model, scene, pose, {})}};
+  if (turns.front().verification.in_px == 0) {
     return open;
   }
-  open.pose = hinge->turned(pose, mean_rad);
-  open.deviation = spread_rad * hinge->motion_of(open.pose);
+  follow(model, scene, pose, *hinge, kStep_rad, turns);
+  follow(model, scene, pose, *hinge, -kStep_rad, turns);
+  Spread const spread = spread_of(turns);
+  if (spread.deviation_rad < kLeastSpread_rad) {
+    return open;
+  }
+  open.pose = hinge->turned(pose, spread.mean_rad);
+  open.deviation = spread.deviation_rad * hinge->motion_of(open.pose);
   return open;
 }
 
@@ -144,8 +162,8 @@ std::vector<PoseCandidate> other_turns(SearchModel const& model, SearchScene con
         taken, [&](int other) { return std::abs(other - turn.step) < kApart_steps; });
     if (apart && taken.size() < kMostOtherTurns) {
       taken.push_back(turn.step);
-      others.push_back(
-          polished(model, scene, hinge->turned(candidate.pose, turn.step * kStep_rad)));
+      CameraPose const pose = hinge->turned(candidate.pose, turn.step * kStep_rad);
+      others.push_back(polished(model, scene, {pose, verified(model, scene, pose, {})}));
     }
   }
   return others;

@@ -27,7 +27,7 @@ struct OpenTurn {
 [[nodiscard]] OpenTurn open_turn(SearchModel const& model, SearchScene const& scene,
                                  CameraPose const& pose, Matrix6d const& information);
 
-/// The other turns about the same line, all around, that explain the frame best: at most two,
+/// The other turns about the same line, all around, that explain the frame best: at most six,
 /// polished, each more than 20 degrees from the candidate's own. A model that is all but round is
 /// found by its roundness, whichever way its handle is. None where open_turn follows none.
 [[nodiscard]] std::vector<PoseCandidate> other_turns(SearchModel const& model,

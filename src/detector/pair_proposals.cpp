@@ -87,29 +87,36 @@ public:
   };
   /// The best, and what comes close to it elsewhere; clears them.
   std::vector<Peak> take_peaks() {
+    std::vector<std::uint16_t> tops;  // of each reference
+    for (std::size_t row = 0; row < counts_.size(); row += kTurns) {
+      tops.push_back(top_from(row));
+    }
     std::vector<Peak> peaks;
     float best = 0.0F;
     while (peaks.size() < kMostPeaks) {
-      std::uint16_t const top = most();
+      auto const reference =
+          static_cast<std::size_t>(std::ranges::max_element(tops) - tops.begin());
+      std::uint16_t const top = tops[reference];
       best = std::max(best, static_cast<float>(top));
       if (top == 0 || static_cast<float>(top) < kLeastPeak * best) {
         break;
       }
-      auto const place =
-          static_cast<std::size_t>(std::ranges::find(counts_, top) - counts_.begin());
-      peaks.push_back(peak_at(place / kTurns, place % kTurns));
+      auto const row = counts_.begin() + static_cast<std::ptrdiff_t>(reference * kTurns);
+      auto const turn = static_cast<std::size_t>(std::find(row, row + kTurns, top) - row);
+      peaks.push_back(peak_at(reference, turn));
+      tops[reference] = top_from(reference * kTurns);
     }
     return peaks;
   }
 
 private:
   /// A loop that compilers turn into vectors, as they do not std::max_element.
-  [[nodiscard]] std::uint16_t most() const {
-    std::uint16_t most = 0;
-    for (std::uint16_t const count : counts_) {
-      most = count > most ? count : most;
+  [[nodiscard]] std::uint16_t top_from(std::size_t row) const {
+    std::uint16_t top = 0;
+    for (std::size_t turn = 0; turn < kTurns; ++turn) {
+      top = std::max(top, counts_[row + turn]);
     }
-    return most;
+    return top;
   }
   Peak peak_at(std::size_t reference, std::size_t turn) {
     std::uint16_t* row = counts_.data() + reference * kTurns;
@@ -213,8 +220,8 @@ std::vector<Proposal> propose_by_pairs(SearchModel const& model, PairTable const
       if (&to == &from) {
         return;
       }
-      std::span<PairTable::Entry const> const alike = pairs.like(
-          PairFeature::of(from.point, from.normal, to.point, to.normal, pairs.step_m()));
+      std::span<PairTable::Entry const> const alike =
+          pairs.like(PairFeature::of(from.point, from.normal, to.point, to.normal, pairs.step_m()));
       if (alike.size() > pairs.references().size()) {
         return;  // such pairs are all over the model: they tell no place on it
       }

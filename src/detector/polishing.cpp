@@ -13,12 +13,11 @@ constexpr float kLeastLogOdds = -8.0F;
 
 }  // namespace
 
-PoseCandidate polished(SearchModel const& model, SearchScene const& scene, CameraPose const& pose) {
-  PoseCandidate rough{pose, verified(model, scene, pose, {})};
+PoseCandidate polished(SearchModel const& model, SearchScene const& scene, PoseCandidate rough) {
   if (rough.verification.log_odds < kLeastLogOdds) {
     return rough;
   }
-  CameraPose const moved = refined(model, scene, pose, kRefinement);
+  CameraPose const moved = refined(model, scene, rough.pose, kRefinement);
   PoseCandidate fine{moved, verified(model, scene, moved, {})};
   return fine.verification.log_odds > rough.verification.log_odds ? std::move(fine)
                                                                   : std::move(rough);

@@ -12,8 +12,8 @@ struct PoseCandidate {
   float probability = 0.0F;
 };
 
-/// A pose refined by all that its view shows, where that is likelier, and as it was where not.
+/// A candidate refined by all that its view shows, where that is likelier, and as it was where not.
 [[nodiscard]] PoseCandidate polished(SearchModel const& model, SearchScene const& scene,
-                                     CameraPose const& pose);
+                                     PoseCandidate rough);
 
 }  // namespace credo

@@ -102,7 +102,7 @@ std::vector<std::vector<Lead>> leads_of(std::vector<ObjectCandidates> const& obj
 
 float probability_among(float log_odds, Lead const& lead) {
   // Logistic regression on made table tops; see docs/detection.md.
-  float const x = -2.3F + 1.2F * log_odds + 0.4F * lead.over_own + 0.3F * lead.over_others;
+  float const x = -2.6F + 1.2F * log_odds + 0.3F * lead.over_own + 0.4F * lead.over_others;
   return 1.0F / (1.0F + std::exp(-x));
 }
 

@@ -233,6 +233,18 @@ float log_odds_of(Verification const& v) {
 
 }  // namespace
 
+float log_odds_beside(Verification const& verification, int most_net_px) {
+  // Silhouettes waver by a hundredth of the picture or two.
+  constexpr float kPerShare = 20.0F;
+  constexpr float kMost = 3.0F;
+  if (most_net_px <= verification.net_px() || most_net_px <= 0) {
+    return verification.log_odds;
+  }
+  float const less =
+      1.0F - static_cast<float>(verification.net_px()) / static_cast<float>(most_net_px);
+  return verification.log_odds - std::min(kMost, kPerShare * less);
+}
+
 Verification verified(SearchModel const& model, SearchScene const& scene, CameraPose const& pose,
                       ClaimedPixels const& claimed) {
   DepthPatch const patch = model.rendered(pose, scene.intrinsics, scene.size());

@@ -60,6 +60,8 @@ struct Verification {
   /// Pixels that it explains, as positions in the scene's grid, rising.
   std::vector<std::uint32_t> explained_px;
 
+  /// What it explains of the picture, less what it gets wrong.
+  [[nodiscard]] int net_px() const { return in_px - seen_through_px; }
   [[nodiscard]] int shown_px() const {
     return in_px + background_px + seen_through_px + behind_plane_px + occluded_px + no_depth_px;
   }
@@ -67,6 +69,11 @@ struct Verification {
 
 /// Pixels that other objects explain already; they hide what is behind and within them.
 using ClaimedPixels = Grid<std::uint8_t>;
+
+/// The log-odds beside a pose of the same object in the same place that explains so much: of a mug
+/// whose handle is seen, those with the handle behind it explain the cup as well, and no handle.
+/// Unchanged where it explains no less.
+[[nodiscard]] float log_odds_beside(Verification const& verification, int most_net_px);
 
 /// Renders the model and holds it against the scene. `claimed` is empty, or as large as the image.
 [[nodiscard]] Verification verified(SearchModel const& model, SearchScene const& scene,

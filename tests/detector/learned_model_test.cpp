@@ -96,7 +96,8 @@ struct Found {
 };
 Found found(ObjectModel const& model, ObjectModel const& object) {
   std::vector<Placed> things = desk_and_floor();
-  Se3 const T_world_model = placed_at({0.12, 0.05, half_height_m(object)}, 2.0);
+  // Turned so that handles show.
+  Se3 const T_world_model = placed_at({0.12, 0.05, half_height_m(object)}, 3.3);
   things.push_back({object, T_world_model});
   things.push_back({bracket(), placed_at({-0.2, 0.1, 0}, 0.4)});
   Se3 const T_world_camera = looking_at({0.1, -0.9, 0.55}, {0.0, 0.0, 0.05});

@@ -156,7 +156,10 @@ TEST(SearchModel, OfAOneSidedShellTheInsideHidesNothing) {
   object.one_sided = true;
   SearchModel const model = prepare_model(object);
   EXPECT_EQ(model.view_from({0, 0, 1}).area_m2, 0.0F);
-  EXPECT_NEAR(model.view_from({0, 0, -1}).area_m2, 0.2F * 0.12F, 0.002F);
+  // The nearest view is up to ten degrees off, and then shows of a wall, too.
+  float const below_m2 = model.view_from({0, 0, -1}).area_m2;
+  EXPECT_GT(below_m2, 0.2F * 0.12F - 0.002F);
+  EXPECT_LT(below_m2, 0.2F * 0.12F + 0.2F * 0.1F * std::sin(0.175F) + 0.002F);
   // From aside and above only the near walls are seen.
   for (std::uint16_t const i : model.view_from({1.0F, 0.0F, 0.6F}).visible) {
     EXPECT_GT(model.normals_model[i].x(), 0.5F);

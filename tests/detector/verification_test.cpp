@@ -368,5 +368,18 @@ TEST(Verification, AHalfHiddenObjectIsLessVisibleYetLikely) {
   EXPECT_GT(v.log_odds, 0.0F);
 }
 
+TEST(Verification, BesideOneThatExplainsMoreItIsLessLikely) {
+  Verification verification;
+  verification.in_px = 1000;
+  verification.seen_through_px = 50;
+  verification.log_odds = 2.0F;
+  EXPECT_EQ(verification.net_px(), 950);
+  EXPECT_EQ(log_odds_beside(verification, 0), 2.0F);
+  EXPECT_EQ(log_odds_beside(verification, 900), 2.0F) << "it explains more itself";
+  EXPECT_EQ(log_odds_beside(verification, 950), 2.0F);
+  EXPECT_NEAR(log_odds_beside(verification, 1000), 1.0F, 1e-5F) << "a twentieth less";
+  EXPECT_EQ(log_odds_beside(verification, 5000), -1.0F) << "never more than so much";
+}
+
 }  // namespace
 }  // namespace credo::test
