@@ -157,18 +157,21 @@ SceneCloud scene_cloud(Frame const& frame) {
   for (int v = 0; v < cloud.height(); v += kStep_px) {
     for (int u = 0; u < cloud.width(); u += kStep_px) {
       std::size_t const i = cloud.x.index({u, v});
-      if (!cloud.valid(i) || std::isnan(normals[i].normal_x) || segments.labels[i] == 0) {
+      if (!cloud.valid(i)) {
         continue;
       }
       Eigen::Vector3f const p = cloud.at(i);
       if (table ? !table->is_over(p) : p.z() > kFarthest_m) {
         continue;
       }
+      scene.thing[Pixel{u / kStep_px, v / kStep_px}] = 1;
+      if (std::isnan(normals[i].normal_x) || segments.labels[i] == 0) {
+        continue;
+      }
       pcl::PointNormal point;
       point.getVector3fMap() = p;
       point.getNormalVector3fMap() = normals[i].getNormalVector3fMap();
       scene.points->push_back(point);
-      scene.thing[Pixel{u / kStep_px, v / kStep_px}] = 1;
       int const next = static_cast<int>(numbers.size());
       scene.segment.push_back(numbers.try_emplace(segments.labels[i], next).first->second);
     }
