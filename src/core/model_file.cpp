@@ -27,13 +27,14 @@ Field symmetry_field(SymmetryEntry& entry) {
   target->map = {
       {"axis", NumbersTarget{&entry.axis, 3, 3}, {}, "", "turns about it change nothing"},
       {"point", NumbersTarget{&entry.point_m, 3, 3}, {-100, 100}, "m", "a point of the axis"},
+      {"both_ways", &entry.both_ways, {}, "", "turned end for end about the point it is the same"},
   };
   target->list = list_target(entry.turns);
   return {"symmetry",
           std::move(target),
           {},
           "",
-          "own, none, {axis, point}, or the list of all turns that change nothing"};
+          "own, none, {axis, point, both_ways}, or the list of all turns that change nothing"};
 }
 
 [[noreturn]] void refuse(std::string const& where, std::string const& what) {
@@ -103,8 +104,8 @@ Symmetry written_symmetry(SymmetryEntry const& entry, std::string const& where) 
     if (entry.axis.empty() || !(vector_of(entry.axis).norm() > 1e-9)) {
       refuse(where, "symmetry.axis must be a direction that is not 0, 0, 0");
     }
-    symmetry.axis =
-        SymmetryAxis{vector_of(entry.axis).stableNormalized(), vector_of(entry.point_m)};
+    symmetry.axis = SymmetryAxis{vector_of(entry.axis).stableNormalized(), vector_of(entry.point_m),
+                                 entry.both_ways};
   } else if (entry.form == Form::kList) {
     for (std::size_t i = 0; i < entry.turns.size(); ++i) {
       if (entry.turns[i].rpy_deg.empty()) {

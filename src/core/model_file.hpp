@@ -29,6 +29,7 @@ struct SymmetryEntry {
   Word word = Word::kOwn;
   std::vector<double> axis;
   std::vector<double> point_m = {0, 0, 0};
+  bool both_ways = false;
   std::vector<SymmetryTurn> turns;
 };
 

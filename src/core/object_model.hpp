@@ -5,11 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "core/se3.hpp"
 #include "core/solid.hpp"
 
 namespace credo {
@@ -26,7 +28,16 @@ struct SymmetryAxis {
   /// Unit.
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d point_m = Eigen::Vector3d::Zero();
+  /// Turned end for end about the point it is the same, too, as a can is about its middle.
+  bool both_ways = false;
 };
+
+/// The half turn about the axis' point, across the axis.
+[[nodiscard]] inline Se3 end_for_end(SymmetryAxis const& axis) {
+  Eigen::Quaterniond const turn(
+      Eigen::AngleAxisd(std::numbers::pi, axis.direction.unitOrthogonal()));
+  return {turn, axis.point_m - turn * axis.point_m};
+}
 
 /// The motions of a model that leave it as it was: turns about an axis, or some rotations about the
 /// model's origin (the identity goes without saying), or none. Never both.

@@ -22,6 +22,8 @@ PoseDistance::PoseDistance(SearchModel const& model)
     axis_model_ = model.symmetry.axis->direction.cast<float>();
     Eigen::Vector3f const point = model.symmetry.axis->point_m.cast<float>();
     on_axis_model_ = point + axis_model_ * axis_model_.dot(centre_model_ - point);
+    both_ways_ = model.symmetry.axis->both_ways;
+    on_axis_turned_model_ = 2.0F * point - on_axis_model_;
   }
   for (Eigen::Quaterniond const& rotation : model.symmetry.rotations) {
     rotations_.emplace_back(rotation.toRotationMatrix().cast<float>());
@@ -31,7 +33,14 @@ PoseDistance::PoseDistance(SearchModel const& model)
 float PoseDistance::operator()(CameraPose const& a, CameraPose const& b) const {
   if (has_axis_) {
     float const cosine = (a.rotation * axis_model_).dot(b.rotation * axis_model_);
-    return (a * on_axis_model_ - b * on_axis_model_).norm() + per_rad_m_ * angle_of(cosine);
+    Eigen::Vector3f const of_a = a * on_axis_model_;
+    float const as_it_is_m = (of_a - b * on_axis_model_).norm() + per_rad_m_ * angle_of(cosine);
+    if (!both_ways_) {
+      return as_it_is_m;
+    }
+    float const turned_m =
+        (of_a - b * on_axis_turned_model_).norm() + per_rad_m_ * angle_of(-cosine);
+    return std::min(as_it_is_m, turned_m);
   }
   float least_m = std::numeric_limits<float>::infinity();
   for (Eigen::Matrix3f const& turn : rotations_) {

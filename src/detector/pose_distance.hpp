@@ -19,8 +19,11 @@ private:
   Eigen::Vector3f centre_model_;
   float per_rad_m_;
   bool has_axis_ = false;
+  bool both_ways_ = false;
   Eigen::Vector3f axis_model_ = Eigen::Vector3f::UnitZ();
   Eigen::Vector3f on_axis_model_ = Eigen::Vector3f::Zero();
+  /// The same, turned end for end.
+  Eigen::Vector3f on_axis_turned_model_ = Eigen::Vector3f::Zero();
   /// With the identity.
   std::vector<Eigen::Matrix3f> rotations_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 
 #include "geometry/surface_points.hpp"
 
@@ -35,8 +36,9 @@ TrueModel::PoseError TrueModel::error(Se3 const& believed, Se3 const& truth) con
   if (symmetry_.axis) {
     Eigen::Vector3d const& point = symmetry_.axis->point_m;
     Eigen::Vector3d const& axis = symmetry_.axis->direction;
+    double const tilt = angle_between(believed.rotation() * axis, truth.rotation() * axis);
     return {(believed * point - truth * point).norm(),
-            angle_between(believed.rotation() * axis, truth.rotation() * axis)};
+            symmetry_.axis->both_ways ? std::min(tilt, std::numbers::pi - tilt) : tilt};
   }
   double angle = believed.rotation().angularDistance(truth.rotation());
   for (Eigen::Quaterniond const& turn : symmetry_.rotations) {

@@ -121,14 +121,20 @@ std::pair<Comparison, PoseMatch> nearest(PoseDistribution const& expected,
       symmetry.axis ? turned_back(expected.mean, detected.mean, *symmetry.axis) : detected.mean;
   Comparison best = compared(expected, detected, first, symmetry);
   PoseMatch best_match = match_of(best, symmetry);
-  for (Eigen::Quaterniond const& rotation : symmetry.rotations) {
-    Comparison const other = compared(
-        expected, detected, detected.mean * Se3(rotation, Eigen::Vector3d::Zero()), symmetry);
+  auto const consider = [&](Se3 const& equivalent) {
+    Comparison const other = compared(expected, detected, equivalent, symmetry);
     PoseMatch const match = match_of(other, symmetry);
     if (match.squared_distance < best_match.squared_distance) {
       best = other;
       best_match = match;
     }
+  };
+  for (Eigen::Quaterniond const& rotation : symmetry.rotations) {
+    consider(detected.mean * Se3(rotation, Eigen::Vector3d::Zero()));
+  }
+  if (symmetry.axis && symmetry.axis->both_ways) {
+    consider(
+        turned_back(expected.mean, detected.mean * end_for_end(*symmetry.axis), *symmetry.axis));
   }
   return {best, best_match};
 }

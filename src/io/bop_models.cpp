@@ -47,7 +47,11 @@ SymmetryAxis axis_of(Json const& entry) {
 Symmetry symmetry_of(Json const& info) {
   Symmetry symmetry;
   if (info.contains("symmetries_continuous")) {
-    symmetry.axis = axis_of(info.at("symmetries_continuous").at(0));
+    SymmetryAxis axis = axis_of(info.at("symmetries_continuous").at(0));
+    // Beside turns about the axis a discrete one can only be end for end.
+    axis.both_ways =
+        info.contains("symmetries_discrete") && !info.at("symmetries_discrete").empty();
+    symmetry.axis = axis;
     return symmetry;
   }
   if (info.contains("symmetries_discrete")) {

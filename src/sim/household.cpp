@@ -103,6 +103,8 @@ void add_bottles(std::vector<ObjectModel>& models) {
                                                 {0, 0.225}}));
   models.push_back(round_thing(
       "can", {{0, 0}, {0.027, 0}, {0.033, 0.009}, {0.033, 0.106}, {0.027, 0.116}, {0, 0.116}}));
+  // Its ends differ by a millimetre.
+  models.back().symmetry.axis->both_ways = true;
   models.push_back(round_thing("jar", {{0, 0},
                                        {0.047, 0},
                                        {0.047, 0.1},

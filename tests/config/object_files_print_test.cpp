@@ -114,7 +114,7 @@ primitive:
 mesh: ""  # a mesh's file, beside this one; it keeps its own frame
 unit: m  # of the mesh's numbers (m, mm)
 one_sided: false  # an open mesh whose triangles show their outside alone: what is behind was never seen
-symmetry: own  # own, none, {axis, point}, or the list of all turns that change nothing (own, none)
+symmetry: own  # own, none, {axis, point, both_ways}, or the list of all turns that change nothing (own, none)
 )");
 }
 

@@ -158,6 +158,10 @@ TEST_F(ModelFileTest, AnAxisReplacesThePrimitivesOwnSymmetry) {
   std::string const box = "primitive: {box: [1, 1, 1]}\n";
   expect_axis(named(box + "symmetry: {axis: [0, 3, 4], point: [0.1, -0.2, 0.3]}\n").symmetry,
               {0, 0.6, 0.8}, {0.1, -0.2, 0.3});
+  Symmetry const both = named(box + "symmetry: {axis: [0, 0, 1], both_ways: true}\n").symmetry;
+  ASSERT_TRUE(both.axis);
+  EXPECT_TRUE(both.axis->both_ways);
+  EXPECT_FALSE(named(box + "symmetry: {axis: [0, 0, 1]}\n").symmetry.axis->both_ways);
   expect_axis(named(box + "symmetry: {axis: [0, -2, 0]}\n").symmetry, {0, -1, 0}, {0, 0, 0});
 }
 

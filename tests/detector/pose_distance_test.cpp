@@ -128,6 +128,34 @@ TEST(PoseDistance, AboutAnAxisIsTheLeastOverAllTurns) {
   }
 }
 
+TEST(PoseDistance, BothWaysIsTheLeastOverTheEndsToo) {
+  Random random(6);
+  Symmetry symmetry = axis_symmetry();
+  symmetry.axis->both_ways = true;
+  SearchModel const model = bare_model(symmetry);
+  PoseDistance const distance(model);
+  Se3 const around = end_for_end(*symmetry.axis);
+  int turned_is_nearer = 0;
+  for (int i = 0; i < 20; ++i) {
+    CameraPose const a = random.pose();
+    CameraPose const b = random.pose();
+    float const as_it_is = least_over_turns(model, a, b);
+    Vector3f const axis = symmetry.axis->direction.cast<float>();
+    Vector3f const point = symmetry.axis->point_m.cast<float>();
+    Vector3f const on_axis = point + axis * axis.dot(model.centre_model - point);
+    float const shift = (a * on_axis - b * (2.0F * point - on_axis)).norm();
+    float const cosine = (a.rotation * axis).dot(-(b.rotation * axis));
+    float const turned_m =
+        shift + 0.35F * model.diameter_m * std::acos(std::clamp(cosine, -1.0F, 1.0F));
+    EXPECT_NEAR(distance(a, b), std::min(as_it_is, turned_m), 1e-3F);
+    turned_is_nearer += turned_m < as_it_is ? 1 : 0;
+    CameraPose const same{b.rotation * around.rotation().toRotationMatrix().cast<float>(),
+                          b * around.translation().cast<float>()};
+    EXPECT_NEAR(distance(b, same), 0.0F, 2e-3F) << "the other way round";
+  }
+  EXPECT_GT(turned_is_nearer, 3);
+}
+
 TEST(PoseDistance, IsTheLeastOverTheSymmetriesRotations) {
   Random random(5);
   SearchModel const model = bare_model(quarter_turns());

@@ -51,6 +51,19 @@ TEST(TrueModel, AboutAnAxisOnlyItsTiltAndItsPlaceCount) {
   EXPECT_NEAR(model.error(turned(0.2, Eigen::Vector3d::UnitX()), Se3{}).rotation_rad, 0.2, 1e-9);
 }
 
+TEST(TrueModel, BothWaysTheEndsAreAlike) {
+  ObjectModel can{"can", std::vector<Solid>{CylinderSolid{0.1, 0.3}}, {}};
+  can.symmetry.axis = SymmetryAxis{Eigen::Vector3d::UnitZ(), {0, 0, 0.15}, true};
+  TrueModel const model(can);
+  Se3 const over = end_for_end(*can.symmetry.axis);
+  EXPECT_NEAR(model.error(over, Se3{}).rotation_rad, 0.0, 1e-9);
+  EXPECT_NEAR(model.error(over, Se3{}).translation_m, 0.0, 1e-9);
+  EXPECT_NEAR(model.error(over * turned(0.2, Eigen::Vector3d::UnitX()), Se3{}).rotation_rad, 0.2,
+              1e-9);
+  can.symmetry.axis->both_ways = false;
+  EXPECT_NEAR(TrueModel(can).error(over, Se3{}).rotation_rad, std::numbers::pi, 1e-9);
+}
+
 TEST(TrueModel, AddSIsTheMeanDistanceOfTheSurfaces) {
   ObjectModel const ball{"ball", std::vector<Solid>{SphereSolid{0.1}}, {}};
   TrueModel const model(ball);

@@ -88,6 +88,28 @@ TEST(MatchPose, TakesTheNearestOfTheTurns) {
   }
 }
 
+TEST(MatchPose, BothWaysTakesTheNearerEnd) {
+  SymmetryAxis axis = kAxis;
+  axis.both_ways = true;
+  Symmetry const symmetry{axis, {}};
+  PoseDistribution const expected = about(kPose, deviations(0.03, 0.1));
+  Vector6d error;
+  error << 0.01, 0, 0, 0, 0.03, 0;
+  Se3 const found = boxplus(kPose, error);
+  Vector6d const noise = deviations(0.01, 0.02);
+  double const plain = match_pose(expected, about(found, noise), {kAxis, {}}).squared_distance;
+  // About the axis' point, so that the covariance of the found pose's origin is no other.
+  Se3 const other = found * end_for_end(axis);
+  PoseMatch const match = match_pose(expected, about(other, noise), symmetry);
+  EXPECT_NEAR(match.squared_distance, plain, 0.1 * plain);
+  EXPECT_EQ(match.degrees_of_freedom, 5);
+  EXPECT_GT(match_pose(expected, about(other, noise), {kAxis, {}}).squared_distance, 100);
+  PoseDistribution const fused = updated_pose(expected, about(other, noise), symmetry, {});
+  EXPECT_LT((fused.mean.rotation() * axis.direction - kPose.rotation() * axis.direction).norm(),
+            0.1)
+      << "it keeps its way up";
+}
+
 TEST(MatchPose, FollowsTheChiSquareDistribution) {
   std::mt19937 generator(3);
   Vector6d sigma;

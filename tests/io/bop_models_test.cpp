@@ -57,6 +57,17 @@ TEST(BopModels, InOrderInMetresWithTheirSymmetry) {
       1e-9);
 }
 
+TEST(BopModels, TurnsBesideAnAxisAreEndForEnd) {
+  TempFolder const folder;
+  write_models(folder, R"({
+    "2": {"symmetries_continuous": [{"axis": [0,0,1], "offset": [0,0,0]}],
+          "symmetries_discrete": [[1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,0,1]]},
+    "11": {"symmetries_continuous": [{"axis": [0,0,1], "offset": [0,0,0]}]}})");
+  std::vector<ObjectModel> const models = read_bop_models(folder.path(), "set");
+  EXPECT_TRUE(models[0].symmetry.axis->both_ways);
+  EXPECT_FALSE(models[1].symmetry.axis->both_ways);
+}
+
 TEST(BopModels, SayWhatIsWrong) {
   TempFolder const folder;
   EXPECT_THAT(refusal(folder), testing::HasSubstr("models_info.json: cannot be read"));

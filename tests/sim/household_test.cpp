@@ -47,6 +47,10 @@ TEST(Household, SymmetriesAreThoseOfTheShapes) {
     }
     Eigen::Quaterniond const third(Eigen::AngleAxisd(2.1, Eigen::Vector3d::UnitZ()));
     Eigen::Quaterniond const half(Eigen::AngleAxisd(3.14159265, Eigen::Vector3d::UnitZ()));
+    if (model.symmetry.axis && model.symmetry.axis->both_ways) {
+      EXPECT_LT(off_surface_m(model, end_for_end(*model.symmetry.axis).rotation()), 1e-3)
+          << model.name;
+    }
     if (model.symmetry.axis) {
       // The turn about the axis, to the size of its sides.
       EXPECT_LT(off_surface_m(model, third), 3e-4) << model.name;

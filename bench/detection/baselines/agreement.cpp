@@ -70,9 +70,7 @@ Agreement agreement(NormalCloud const& model, Eigen::Isometry3f const& pose_came
     }
     float const tolerance_m = 0.006F + 0.004F * seen_m * seen_m + slack_m;
     float const off = std::abs(seen_m - point.z) / tolerance_m;
-    if (off < 1.0F && scene.thing[Pixel{point.pixel.u / 2, point.pixel.v / 2}] == 0) {
-      result.hidden += 1.0;  // in the table or the wall: it tells nothing
-    } else if (off < 1.0F) {
+    if (off < 1.0F) {
       // Across the surface, not along the ray.
       float const across = off * point.facing;
       result.explained += 1.0 - across * across;

@@ -87,7 +87,9 @@ double angle_between(Eigen::Quaternionf const& a, Eigen::Quaternionf const& b,
                      Symmetry const& symmetry) {
   if (symmetry.axis) {
     Eigen::Vector3f const axis = symmetry.axis->direction.cast<float>();
-    return std::acos(std::clamp((a * axis).dot(b * axis), -1.0F, 1.0F));
+    float const cosine = (a * axis).dot(b * axis);
+    return std::acos(
+        std::min(symmetry.axis->both_ways ? std::abs(cosine) : std::max(cosine, -1.0F), 1.0F));
   }
   double angle = a.angularDistance(b);
   for (Eigen::Quaterniond const& turn : symmetry.rotations) {

@@ -143,13 +143,7 @@ pcl::PointCloud<pcl::Normal> normals_of(OrganizedCloud const& cloud) {
 SceneCloud scene_cloud(Frame const& frame) {
   constexpr int kStep_px = 2;
   OrganizedCloud const& cloud = frame.cloud_camera;
-  SceneCloud scene{
-      std::make_shared<NormalCloud>(),
-      {},
-      0,
-      Grid<std::uint8_t>((cloud.width() + 1) / kStep_px, (cloud.height() + 1) / kStep_px),
-      cloud.z,
-      frame.intrinsics};
+  SceneCloud scene{std::make_shared<NormalCloud>(), {}, 0, cloud.z, frame.intrinsics};
   std::optional<Table> const table = find_table(cloud);
   pcl::PointCloud<pcl::Normal> const normals = normals_of(cloud);
   Segments const segments = convex_segments(cloud.z, frame.intrinsics.fx_px, {});
@@ -157,15 +151,11 @@ SceneCloud scene_cloud(Frame const& frame) {
   for (int v = 0; v < cloud.height(); v += kStep_px) {
     for (int u = 0; u < cloud.width(); u += kStep_px) {
       std::size_t const i = cloud.x.index({u, v});
-      if (!cloud.valid(i)) {
+      if (!cloud.valid(i) || std::isnan(normals[i].normal_x) || segments.labels[i] == 0) {
         continue;
       }
       Eigen::Vector3f const p = cloud.at(i);
       if (table ? !table->is_over(p) : p.z() > kFarthest_m) {
-        continue;
-      }
-      scene.thing[Pixel{u / kStep_px, v / kStep_px}] = 1;
-      if (std::isnan(normals[i].normal_x) || segments.labels[i] == 0) {
         continue;
       }
       pcl::PointNormal point;

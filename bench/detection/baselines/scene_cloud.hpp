@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,9 +16,6 @@ struct SceneCloud {
   /// Which of Credo's segments each of `points` is of; from 0.
   std::vector<int> segment;
   int segment_count = 0;
-  /// Which pixels, halved, are over the table, as all of `points` are: the others are table, floor,
-  /// wall, or nothing.
-  Grid<std::uint8_t> thing;
   /// Of the frame.
   Grid<float> depth_m;
   CameraIntrinsics intrinsics;
