@@ -1,13 +1,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <vector>
+
+#include "core/bits.hpp"
 
 namespace credo {
 
@@ -15,7 +15,7 @@ namespace credo {
 /// gone a word at a time.
 class PixelSet {
 public:
-  static constexpr std::size_t kWordBits = 64;
+  static constexpr std::size_t kWordBits = credo::kWordBits;
 
   /// No pixel yet, of an image of so many.
   explicit PixelSet(std::size_t pixels) : words_((pixels + kWordBits - 1) / kWordBits, 0) {}
@@ -116,22 +116,10 @@ template <typename Test>
 CountedPixels pixels_where(std::size_t pixels, Test const& test) {
   CountedPixels result{PixelSet(pixels), 0};
   std::span<std::uint64_t> const words = result.pixels.words();
-  std::array<std::uint8_t, PixelSet::kWordBits> passes{};
   for (std::size_t w = 0; w < words.size(); ++w) {
     std::size_t const begin = w * PixelSet::kWordBits;
-    std::size_t const count = std::min(PixelSet::kWordBits, pixels - begin);
-    passes.fill(0);
-    // A loop of its own, so that it vectorises.
-    for (std::size_t i = 0; i < count; ++i) {
-      passes[i] = test(begin + i) ? 1 : 0;
-    }
-    for (std::size_t i = 0; i < passes.size(); i += 8) {
-      static_assert(std::endian::native == std::endian::little);
-      std::uint64_t eight = 0;
-      std::memcpy(&eight, passes.data() + i, sizeof eight);
-      // The product's uppermost byte holds the lowest bit of each of the eight.
-      words[w] |= ((eight * 0x0102040810204080U) >> 56U) << i;
-    }
+    words[w] = bits_where(std::min(PixelSet::kWordBits, pixels - begin),
+                          [&](std::size_t i) { return test(begin + i); });
     result.count += static_cast<std::size_t>(std::popcount(words[w]));
   }
   return result;
