@@ -53,8 +53,9 @@ HWY_INLINE Vec some_of(float const* values, std::size_t count) {
     return hn::LoadU(d, values);
   }
   std::array<float, CellSums::kLanes> some;
-  some.fill(kNaN);
-  std::copy_n(values, count, some.data());
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    some[i] = i < count ? values[i] : kNaN;
+  }
   return hn::LoadU(d, some.data());
 }
 
@@ -69,7 +70,10 @@ void place(PointSpans const& points, CellSums::Placement& placement, CellSums::C
     max[axis] = hn::LoadU(d, placement.max[axis].data());
   }
   std::size_t const count = points.x.size();
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+  // The last vector reaches back over points that have their places already.
+  std::size_t const last = count - std::min(count, hn::Lanes(d));
+  for (std::size_t begin = 0; begin < count; begin += hn::Lanes(d)) {
+    std::size_t const i = std::min(begin, last);
     std::array<Vec, 3> point = {some_of(points.x.data() + i, count - i),
                                 some_of(points.y.data() + i, count - i),
                                 some_of(points.z.data() + i, count - i)};
