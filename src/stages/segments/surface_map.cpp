@@ -36,7 +36,8 @@ Heights disparity_of(Grid<float> const& depth_m, Limits const& limits) {
 }
 
 Heights smoothed(Heights const& disparity, Limits const& limits) {
-  Heights smooth(disparity.width(), disparity.height());
+  Heights smooth(disparity.width(), disparity.height(),
+                 2 * std::max(limits.reach_px, limits.diagonal_px));
   for (int v = 0; v < disparity.height(); ++v) {
     smooth_row(disparity.row(v), disparity.stride(), limits.smooth_radius_px, limits.smooth,
                static_cast<std::size_t>(disparity.width()), smooth.row(v));
