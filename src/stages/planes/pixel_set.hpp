@@ -42,7 +42,7 @@ public:
     std::size_t skip = 0;  // pixels to pass over before the next visit
     for (std::size_t w = 0; w < words_.size(); ++w) {
       std::uint64_t rest = words_[w];
-      auto count = static_cast<std::size_t>(std::popcount(rest));
+      std::size_t count = count_bits(rest);
       for (; skip < count; count -= skip + 1, skip = step - 1) {
         for (std::size_t k = 0; k < skip; ++k) {
           rest &= rest - 1;
@@ -95,7 +95,7 @@ struct CountedPixels {
   /// Some of a word, none of which are among them yet.
   void insert(std::size_t word, std::uint64_t bits) {
     pixels.words()[word] |= bits;
-    count += static_cast<std::size_t>(std::popcount(bits));
+    count += count_bits(bits);
   }
   /// Others, none of which are among them yet.
   void insert(CountedPixels const& others) {
@@ -120,7 +120,7 @@ CountedPixels pixels_where(std::size_t pixels, Test const& test) {
     std::size_t const begin = w * PixelSet::kWordBits;
     words[w] = bits_where(std::min(PixelSet::kWordBits, pixels - begin),
                           [&](std::size_t i) { return test(begin + i); });
-    result.count += static_cast<std::size_t>(std::popcount(words[w]));
+    result.count += count_bits(words[w]);
   }
   return result;
 }
