@@ -159,7 +159,7 @@ CellSums::Cell& CellSums::cell_of(std::uint64_t key) {
   Cell& cell = cells_.emplace_back();
   cell.key = key;
   slot = static_cast<std::uint32_t>(cells_.size());
-  if (2 * cells_.size() > slots_.size()) {
+  if (4 * cells_.size() > slots_.size()) {
     grow();
   }
   return cell;

@@ -48,7 +48,8 @@ Heights smoothed(Heights const& disparity, Limits const& limits) {
 /// The frame's own noise: what three quarters of the pixels on a coarse grid are less concave than.
 int noise_of(Heights const& disparity, Heights const& concavity, Limits const& limits) {
   // Counted by value: there are few, none below 0, and none as high as two reaches.
-  std::vector<std::uint32_t> counts(2 * static_cast<std::size_t>(std::max<int>(limits.reach, 1)), 0);
+  std::vector<std::uint32_t> counts(2 * static_cast<std::size_t>(std::max<int>(limits.reach, 1)),
+                                    0);
   std::uint32_t total = 0;
   for (int v = 0; v < disparity.height(); v += 3) {
     for (int u = 0; u < disparity.width(); u += 5) {
