@@ -1,0 +1,106 @@
+// The kernel against a plain loop, on every instruction set of this machine.
+#include "stages/segments/disc_sums.hpp"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "stages/segments/limits.hpp"
+#include "stages/segments/padded_grid.hpp"
+
+namespace credo::segments {
+namespace {
+
+constexpr int kSize = 2 * kMaxDisc_px + 1;
+
+struct LabelledHeights {
+  PaddedGrid<std::int32_t> labels{kSize, kSize};
+  PaddedGrid<std::int16_t> disparity{kSize, kSize};
+
+  [[nodiscard]] DiscCentre middle() const {
+    return {labels.row(kMaxDisc_px) + kMaxDisc_px, disparity.row(kMaxDisc_px) + kMaxDisc_px,
+            labels.stride()};
+  }
+};
+
+/// Of labels from 1 on, so many.
+LabelledHeights drawn(int labels, int least_disparity) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> label(1, labels);
+  std::uniform_int_distribution<int> disparity(least_disparity, 32000);
+  LabelledHeights result;
+  for (int v = 0; v < kSize; ++v) {
+    for (int u = 0; u < kSize; ++u) {
+      result.labels.row(v)[u] = label(random);
+      result.disparity.row(v)[u] = static_cast<std::int16_t>(disparity(random));
+    }
+  }
+  return result;
+}
+
+std::vector<DiscRow> disc(int radius, int cut_left) {
+  std::vector<DiscRow> rows;
+  for (int v = -radius; v <= radius; v += 2) {
+    int const half = static_cast<int>(std::sqrt(radius * radius - v * v));
+    rows.push_back({v, -half + 2 * cut_left, half});
+  }
+  return rows;
+}
+
+DiscSums plain_sums(DiscCentre const& centre, std::vector<DiscRow> const& rows,
+                    std::int32_t label) {
+  DiscSums sums;
+  for (DiscRow const& row : rows) {
+    for (int u = row.first_u; u <= row.last_u; u += 2) {
+      std::ptrdiff_t const at = row.v * centre.stride + u;
+      if (centre.label[at] == label) {
+        std::int64_t const d = centre.disparity[at];
+        std::int64_t const v = row.v;
+        ++sums.n;
+        sums.u += u;
+        sums.v += v;
+        sums.d += d;
+        sums.uu += std::int64_t{u} * u;
+        sums.uv += u * v;
+        sums.vv += v * v;
+        sums.ud += u * d;
+        sums.vd += v * d;
+        sums.dd += d * d;
+      }
+    }
+  }
+  return sums;
+}
+
+void expect_plain(LabelledHeights const& image) {
+  for (int const radius : {1, 2, 4, 12, 13, 31, 50, 180, 181, kMaxDisc_px}) {
+    SCOPED_TRACE(radius);
+    for (int const cut_left : {0, 1}) {
+      std::vector<DiscRow> const rows = disc(radius, cut_left);
+      TwoSums const sums = disc_sums(image.middle(), rows, 1, 2);
+      EXPECT_EQ(sums.a, plain_sums(image.middle(), rows, 1));
+      EXPECT_EQ(sums.b, plain_sums(image.middle(), rows, 2));
+    }
+  }
+}
+
+TEST(DiscSums, AreThoseOfAPlainLoop) {
+  LabelledHeights const mixed = drawn(3, 0);
+  // The largest sums that there are.
+  LabelledHeights const nearest = drawn(1, 32000);
+  for (std::int64_t const target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    expect_plain(mixed);
+    expect_plain(nearest);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace
+}  // namespace credo::segments
