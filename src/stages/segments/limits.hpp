@@ -16,7 +16,7 @@ inline constexpr int kUnitsPerQuantum = 16;
 inline constexpr int kMaxSmooth_px = 8;
 inline constexpr int kMaxReach_px = 32;
 inline constexpr int kMaxDisc_px = 255;
-static_assert(2 * kMaxReach_px <= PaddedGrid<int>::kMarginRows);
+static_assert(2 * kMaxReach_px <= PaddedGrid<int>::kMargin);
 
 /// The config for one camera: pixels scaled to its focal length, heights in units.
 struct Limits {
