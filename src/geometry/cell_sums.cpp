@@ -53,12 +53,28 @@ HWY_INLINE Vec some_of(float const* values, std::size_t count) {
     return hn::LoadU(d, values);
   }
   std::array<float, CellSums::kLanes> some;
-  some.fill(kNaN);
-  std::copy_n(values, count, some.data());
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    some[i] = i < count ? values[i] : kNaN;
+  }
   return hn::LoadU(d, some.data());
 }
 
-// Moves points, finds their cells (kNoCell where a coordinate is not finite) and widens the bounds.
+// 1 for each point from number i on, as many as a vector holds, whose cell is not that of the point
+// before it.
+HWY_INLINE std::uint64_t begins_at(CellSums::Chunk const& chunk, std::size_t i) {
+  Ints const d;
+  auto differences = hn::Zero(d);
+  for (auto const& cells : chunk.cells) {
+    auto const before = hn::LoadU(d, cells.data() + i);
+    differences = hn::Or(differences, hn::Xor(hn::LoadU(d, cells.data() + i + 1), before));
+  }
+  std::array<std::uint8_t, 8> bits{};
+  hn::StoreMaskBits(d, hn::Ne(differences, hn::Zero(d)), bits.data());
+  return bits[0] & ((1U << hn::Lanes(d)) - 1U);
+}
+
+// Moves points, finds their cells (kNoCell where a coordinate is not finite) and where these begin,
+// and widens the bounds.
 void place(PointSpans const& points, CellSums::Placement& placement, CellSums::Chunk& chunk) {
   Floats const d;
   Ints const di;
@@ -69,7 +85,10 @@ void place(PointSpans const& points, CellSums::Placement& placement, CellSums::C
     max[axis] = hn::LoadU(d, placement.max[axis].data());
   }
   std::size_t const count = points.x.size();
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+  // The last vector reaches back over points that have their places already.
+  std::size_t const last = count - std::min(count, hn::Lanes(d));
+  for (std::size_t begin = 0; begin < count; begin += hn::Lanes(d)) {
+    std::size_t const i = std::min(begin, last);
     std::array<Vec, 3> point = {some_of(points.x.data() + i, count - i),
                                 some_of(points.y.data() + i, count - i),
                                 some_of(points.z.data() + i, count - i)};
@@ -81,11 +100,18 @@ void place(PointSpans const& points, CellSums::Placement& placement, CellSums::C
     for (std::size_t axis = 0; axis < 3; ++axis) {
       auto const cell = cells_along_axis(point[axis], placement.cells_per_m);
       hn::StoreU(hn::IfThenElse(hn::RebindMask(di, finite), cell, hn::Set(di, CellSums::kNoCell)),
-                 di, chunk.cells[axis].data() + i);
+                 di, chunk.cells[axis].data() + 1 + i);
       hn::StoreU(point[axis], d, chunk.points[axis].data() + i);
       min[axis] = hn::Min(min[axis], hn::IfThenElse(finite, point[axis], min[axis]));
       max[axis] = hn::Max(max[axis], hn::IfThenElse(finite, point[axis], max[axis]));
     }
+  }
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    chunk.begins |= begins_at(chunk, i) << i;
+  }
+  chunk.begins |= 1U;
+  if (count < CellSums::kChunk) {
+    chunk.begins &= (std::uint64_t{1} << count) - 1;
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     hn::StoreU(min[axis], d, placement.min[axis].data());
@@ -155,7 +181,7 @@ CellSums::Cell& CellSums::cell_of(std::uint64_t key) {
   Cell& cell = cells_.emplace_back();
   cell.key = key;
   slot = static_cast<std::uint32_t>(cells_.size());
-  if (2 * cells_.size() > slots_.size()) {
+  if (4 * cells_.size() > slots_.size()) {
     grow();
   }
   return cell;
@@ -173,27 +199,24 @@ void CellSums::add_chunk(PointSpans const& points) {
   HWY_DYNAMIC_DISPATCH(place)(points, placement_, chunk);
   auto const& [x, y, z] = chunk.points;
   auto const& [cell_x, cell_y, cell_z] = chunk.cells;
-  std::size_t const count = points.x.size();
-  for (std::size_t i = 0; i < count;) {
-    std::int32_t const cx = cell_x[i];
-    std::int32_t const cy = cell_y[i];
-    std::int32_t const cz = cell_z[i];
-    if (cx == kNoCell) {
-      ++i;
+  // Neighbours in the image mostly share their cell: it is looked up once for all of them.
+  for (std::uint64_t begins = chunk.begins; begins != 0;) {
+    auto const begin = static_cast<std::size_t>(std::countr_zero(begins));
+    begins &= begins - 1;
+    std::size_t const end =
+        begins != 0 ? static_cast<std::size_t>(std::countr_zero(begins)) : points.x.size();
+    if (cell_x[begin + 1] == kNoCell) {
       continue;
     }
-    // Neighbours in the image mostly share their cell: it is looked up once for all of them.
-    Cell& cell = cell_of(key_of(cx, cy, cz));
-    std::size_t const first = i;
+    Cell& cell = cell_of(key_of(cell_x[begin + 1], cell_y[begin + 1], cell_z[begin + 1]));
     auto [sum_x, sum_y, sum_z] = cell.sum;
-    do {
+    for (std::size_t i = begin; i < end; ++i) {
       sum_x += static_cast<double>(x[i]);
       sum_y += static_cast<double>(y[i]);
       sum_z += static_cast<double>(z[i]);
-      ++i;
-    } while (i < count && ((cell_x[i] ^ cx) | (cell_y[i] ^ cy) | (cell_z[i] ^ cz)) == 0);
+    }
     cell.sum = {sum_x, sum_y, sum_z};
-    cell.count += static_cast<double>(i - first);
+    cell.count += static_cast<double>(end - begin);
   }
 }
 

@@ -47,10 +47,14 @@ public:
   static constexpr float kLastCell = (1 << 20) - 1;
   /// Beyond all cells of an axis.
   static constexpr std::int32_t kNoCell = 1 << 20;
-  /// Coordinates of up to kChunk points, and their cells, axis by axis.
+  /// Up to kChunk points.
   struct Chunk {
+    /// Axis by axis.
     std::array<std::array<float, kChunk>, 3> points;
-    std::array<std::array<std::int32_t, kChunk>, 3> cells;
+    /// Axis by axis, that of the first point in place 1.
+    std::array<std::array<std::int32_t, 1 + kChunk>, 3> cells;
+    /// 1 for each point whose cell is not that of the point before it, and for the first.
+    std::uint64_t begins = 0;
   };
   /// How a kernel places points; bounds lane by lane.
   struct Placement {

@@ -294,7 +294,7 @@ LiteralLimits literal_limits(double focal_px, SegmentsConfig const& config) {
           .crease = units(config.crease_quanta),
           .crease_noise = config.crease_noise,
           .slope = static_cast<int>(std::lround(config.crease_slope / 12.0 * 65536.0)),
-          .disc_px = length_px(config.disc_radius_px, 1000),
+          .disc_px = length_px(config.disc_radius_px, 255),
           .seed_px = area_px(4),
           .part_px = area_px(config.min_pixels),
           .small_px = area_px(1000),

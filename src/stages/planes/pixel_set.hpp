@@ -1,13 +1,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <vector>
+
+#include "core/bits.hpp"
 
 namespace credo {
 
@@ -15,7 +15,7 @@ namespace credo {
 /// gone a word at a time.
 class PixelSet {
 public:
-  static constexpr std::size_t kWordBits = 64;
+  static constexpr std::size_t kWordBits = credo::kWordBits;
 
   /// No pixel yet, of an image of so many.
   explicit PixelSet(std::size_t pixels) : words_((pixels + kWordBits - 1) / kWordBits, 0) {}
@@ -42,7 +42,7 @@ public:
     std::size_t skip = 0;  // pixels to pass over before the next visit
     for (std::size_t w = 0; w < words_.size(); ++w) {
       std::uint64_t rest = words_[w];
-      auto count = static_cast<std::size_t>(std::popcount(rest));
+      std::size_t count = count_bits(rest);
       for (; skip < count; count -= skip + 1, skip = step - 1) {
         for (std::size_t k = 0; k < skip; ++k) {
           rest &= rest - 1;
@@ -95,7 +95,7 @@ struct CountedPixels {
   /// Some of a word, none of which are among them yet.
   void insert(std::size_t word, std::uint64_t bits) {
     pixels.words()[word] |= bits;
-    count += static_cast<std::size_t>(std::popcount(bits));
+    count += count_bits(bits);
   }
   /// Others, none of which are among them yet.
   void insert(CountedPixels const& others) {
@@ -116,23 +116,11 @@ template <typename Test>
 CountedPixels pixels_where(std::size_t pixels, Test const& test) {
   CountedPixels result{PixelSet(pixels), 0};
   std::span<std::uint64_t> const words = result.pixels.words();
-  std::array<std::uint8_t, PixelSet::kWordBits> passes{};
   for (std::size_t w = 0; w < words.size(); ++w) {
     std::size_t const begin = w * PixelSet::kWordBits;
-    std::size_t const count = std::min(PixelSet::kWordBits, pixels - begin);
-    passes.fill(0);
-    // A loop of its own, so that it vectorises.
-    for (std::size_t i = 0; i < count; ++i) {
-      passes[i] = test(begin + i) ? 1 : 0;
-    }
-    for (std::size_t i = 0; i < passes.size(); i += 8) {
-      static_assert(std::endian::native == std::endian::little);
-      std::uint64_t eight = 0;
-      std::memcpy(&eight, passes.data() + i, sizeof eight);
-      // The product's uppermost byte holds the lowest bit of each of the eight.
-      words[w] |= ((eight * 0x0102040810204080U) >> 56U) << i;
-    }
-    result.count += static_cast<std::size_t>(std::popcount(words[w]));
+    words[w] = bits_where(std::min(PixelSet::kWordBits, pixels - begin),
+                          [&](std::size_t i) { return test(begin + i); });
+    result.count += count_bits(words[w]);
   }
   return result;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bits.hpp"
 #include "core/segments.hpp"
 #include "stages/planes/pixel_set.hpp"
 
@@ -54,7 +55,7 @@ public:
     }
     std::vector<std::uint32_t> counts(segments_.pixel_counts.size() + 1, 0);
     for_each(pixels, [&](std::size_t segment, std::size_t /*word*/, std::uint64_t bits) {
-      counts[segment] += static_cast<std::uint32_t>(std::popcount(bits));
+      counts[segment] += static_cast<std::uint32_t>(count_bits(bits));
     });
     return counts;
   }

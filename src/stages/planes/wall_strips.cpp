@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace credo {
@@ -15,13 +16,19 @@ constexpr std::size_t kEvery = 11;
 /// A strip with a smaller part of a fair share of the plane's pixels does not show it.
 constexpr double kLeastPart = 0.1;
 
-template <typename Visit>
-void for_some(PlaneView const& view, CountedPixels const& pixels, Visit const& visit) {
-  for (std::size_t i = 0; i < view.cloud.size(); i += kEvery) {
-    if (pixels.pixels.contains(i)) {
-      visit(i);
+PixelSet some_of(CountedPixels const& pixels) {
+  PixelSet some = pixels.pixels;
+  // Of each word the first bit that is looked at.
+  std::size_t first = 0;
+  for (std::uint64_t& word : some.words()) {
+    std::uint64_t looked_at = 0;
+    for (; first < PixelSet::kWordBits; first += kEvery) {
+      looked_at |= std::uint64_t{1} << first;
     }
+    first -= PixelSet::kWordBits;
+    word &= looked_at;
   }
+  return some;
 }
 
 /// Where pixels are from left to right, however the camera is turned: the tangent of the angle from
@@ -67,10 +74,11 @@ using Strips = std::array<Strip, kStrips + 2>;
 Strips counted_strips(PlaneView const& view, PixelPlane const& plane, CountedPixels const& behind) {
   constexpr float kFurnitureDepth_m = 0.8F;
   constexpr float kParallelCosine = 0.9F;
+  PixelSet const some_inliers = some_of(plane.inliers);
   Bearings const bearing(view);
   float least = std::numeric_limits<float>::infinity();
   float most = -least;
-  for_some(view, plane.inliers, [&](std::size_t i) {
+  some_inliers.for_each([&](std::size_t i) {
     float const tangent = bearing(i);
     least = std::min(least, tangent);
     most = std::max(most, tangent);
@@ -90,14 +98,14 @@ Strips counted_strips(PlaneView const& view, PixelPlane const& plane, CountedPix
       plane.world.normal.cross(Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Vector3f const along =
       (view.T_world_camera.rotation().conjugate() * along_world).cast<float>();
-  for_some(view, plane.inliers, [&](std::size_t i) {
+  some_inliers.for_each([&](std::size_t i) {
     Strip& strip = strip_of(i);
     float const along_m = along.dot(view.cloud.at(i));
     ++strip.shown;
     strip.low_m = std::min(strip.low_m, along_m);
     strip.high_m = std::max(strip.high_m, along_m);
   });
-  for_some(view, behind, [&](std::size_t i) {
+  some_of(behind).for_each([&](std::size_t i) {
     Strip& strip = strip_of(i);
     float const depth_m = std::abs(normal.dot(view.cloud.at(i)) - offset_m);
     ++strip.behind;

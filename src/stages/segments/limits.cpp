@@ -32,7 +32,7 @@ Limits limits_for(double focal_px, SegmentsConfig const& config) {
   limits.crease_noise = config.crease_noise;
   // The steepness is a difference across two reaches.
   limits.slope = static_cast<std::int16_t>(std::lround(config.crease_slope / 12.0 * 65536.0));
-  limits.disc_px = length_px(config.disc_radius_px, 1000);
+  limits.disc_px = length_px(config.disc_radius_px, kMaxDisc_px);
   limits.seed_px = area_px(4);
   limits.part_px = area_px(config.min_pixels);
   limits.small_px = area_px(1000);

@@ -15,7 +15,8 @@ inline constexpr int kUnitsPerQuantum = 16;
 /// radius, of differences of up to 7 quanta, fit sixteen bits.
 inline constexpr int kMaxSmooth_px = 8;
 inline constexpr int kMaxReach_px = 32;
-static_assert(2 * kMaxReach_px <= PaddedGrid<int>::kMarginRows);
+inline constexpr int kMaxDisc_px = 255;
+static_assert(2 * kMaxReach_px <= PaddedGrid<int>::kMargin);
 
 /// The config for one camera: pixels scaled to its focal length, heights in units.
 struct Limits {

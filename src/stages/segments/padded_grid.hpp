@@ -11,26 +11,28 @@ namespace credo::segments {
 template <typename T>
 class PaddedGrid {
 public:
-  /// Columns to each side: as far as a window reaches, and what a vector reads or writes beyond the
-  /// last pixel.
+  /// Columns between a row and the next, for both: as far as a window reaches, and what a vector
+  /// writes beyond the last pixel.
   static constexpr int kMargin = 96;
   /// Rows above and below: as far as the widest window reaches, and as far as others do.
   static constexpr int kMarginRows = 64;
   static constexpr int kFewMarginRows = 8;
+  static constexpr int kLanes = 64;
 
   PaddedGrid(int width, int height, int margin_rows = kMarginRows)
       : width_(width),
         height_(height),
         margin_rows_(margin_rows),
-        stride_(width + 2 * kMargin),
+        stride_(width + kMargin),
         data_(new T[static_cast<std::size_t>(stride_) *
-                    static_cast<std::size_t>(height + 2 * margin_rows)]) {
-    // The margins behind a row and before the next are side by side.
+                        static_cast<std::size_t>(height + 2 * margin_rows) +
+                    2 * kMargin]) {
+    // Before the first row, between each and the next, behind the last.
     std::fill(row(-margin_rows) - kMargin, row(0), T{});
     for (int v = 0; v < height; ++v) {
-      std::fill(row(v) + width_, row(v) + stride_, T{});
+      std::fill(row(v) + width_, row(v + 1), T{});
     }
-    std::fill(row(height), row(height + margin_rows) - kMargin, T{});
+    std::fill(row(height), row(height + margin_rows) + kMargin, T{});
   }
 
   [[nodiscard]] int width() const { return width_; }
@@ -40,8 +42,10 @@ public:
   /// Column 0 of a row, from as far above the image as the margin has rows.
   [[nodiscard]] T* row(int v) { return data_.get() + origin(v); }
   [[nodiscard]] T const* row(int v) const { return data_.get() + origin(v); }
-  /// Clears what a vector wrote beyond the row's last pixel.
-  void end_row(int v) { std::fill(row(v) + width_, row(v) + stride_ - kMargin, T{}); }
+  /// Clears what vectors of up to kLanes wrote beyond the row's last pixel.
+  void end_row(int v) {
+    std::fill(row(v) + width_, row(v) + (width_ + kLanes - 1) / kLanes * kLanes, T{});
+  }
 
 private:
   [[nodiscard]] std::ptrdiff_t origin(int v) const {

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "stages/segments/disc_sums.hpp"
 #include "stages/segments/kernels.hpp"
 #include "stages/segments/row_bits.hpp"
 
@@ -14,42 +15,6 @@ namespace {
 /// Every so many pairs of a border are looked at closely.
 constexpr std::uint32_t kSampleEvery = 3;
 constexpr std::int64_t kLeastPoints = 20;
-
-/// Whole numbers, so that no order of adding matters.
-struct DiscSums {
-  std::int64_t n = 0;
-  std::int64_t u = 0;
-  std::int64_t v = 0;
-  std::int64_t d = 0;
-  std::int64_t uu = 0;
-  std::int64_t uv = 0;
-  std::int64_t vv = 0;
-  std::int64_t ud = 0;
-  std::int64_t vd = 0;
-  std::int64_t dd = 0;
-
-  void add(std::int64_t pu, std::int64_t pd) {
-    ++n;
-    u += pu;
-    d += pd;
-    uu += pu * pu;
-    ud += pu * pd;
-    dd += pd * pd;
-  }
-  /// What has been added to `row`, all of it at pv.
-  void add_row(DiscSums const& row, std::int64_t pv) {
-    n += row.n;
-    u += row.u;
-    v += pv * row.n;
-    d += row.d;
-    uu += row.uu;
-    uv += pv * row.u;
-    vv += pv * pv * row.n;
-    ud += row.ud;
-    vd += pv * row.d;
-    dd += row.dd;
-  }
-};
 
 /// Least squares; a little is added to the points' spread, so that a thin strip has no steep plane.
 std::optional<DiscPlane> fitted(DiscSums const& sums) {
@@ -188,35 +153,19 @@ private:
   }
 
   void sample(Border& border, int u, int v, std::ptrdiff_t at, std::ptrdiff_t step) {
-    std::int32_t const* const labels = labels_.row(0);
-    std::int16_t const* const disparity = map_.disparity.row(0);
-    std::int32_t const a = labels[at];
-    std::int32_t const b = labels[at + step];
-    DiscSums sums_a;
-    DiscSums sums_b;
+    rows_.clear();
     for (auto const [begin, dv] : disc_) {
-      if (v + dv < 0 || v + dv >= map_.height()) {
-        continue;
+      if (v + dv >= 0 && v + dv < map_.height()) {
+        // Every second pixel, whatever the image cuts off.
+        int const first = u + begin < 0 ? begin + (1 - u - begin) / 2 * 2 : begin;
+        rows_.push_back({dv, first, std::min(-begin, map_.width() - 1 - u)});
       }
-      std::ptrdiff_t const row = at + dv * labels_.stride();
-      // Every second pixel, whatever the image cuts off.
-      int const first = u + begin < 0 ? begin + (1 - u - begin) / 2 * 2 : begin;
-      int const last = std::min(-begin, map_.width() - 1 - u);
-      DiscSums row_a;
-      DiscSums row_b;
-      for (int du = first; du <= last; du += 2) {
-        std::int32_t const label = labels[row + du];
-        if (label == a) {
-          row_a.add(du, disparity[row + du]);
-        } else if (label == b) {
-          row_b.add(du, disparity[row + du]);
-        }
-      }
-      sums_a.add_row(row_a, dv);
-      sums_b.add_row(row_b, dv);
     }
-    auto const plane_a = fitted(sums_a);
-    auto const plane_b = fitted(sums_b);
+    std::int32_t const* const label = labels_.row(0) + at;
+    auto const sums = disc_sums({label, map_.disparity.row(0) + at, labels_.stride()}, rows_,
+                                label[0], label[step]);
+    auto const plane_a = fitted(sums.a);
+    auto const plane_b = fitted(sums.b);
     if (plane_a && plane_b) {
       ++border.samples;
       border.unlike += go_on(*plane_a, *plane_b) ? 0 : 1;
@@ -229,6 +178,8 @@ private:
   Limits const& limits_;
   /// Of each row of a disc its first pixel.
   std::vector<Pixel> disc_;
+  /// Those of the disc that is looked at.
+  std::vector<DiscRow> rows_;
   /// Where in a row the next pixel, or the one below, has another label.
   RowBits beside_;
   RowBits below_;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -36,7 +35,8 @@ Heights disparity_of(Grid<float> const& depth_m, Limits const& limits) {
 }
 
 Heights smoothed(Heights const& disparity, Limits const& limits) {
-  Heights smooth(disparity.width(), disparity.height());
+  Heights smooth(disparity.width(), disparity.height(),
+                 2 * std::max(limits.reach_px, limits.diagonal_px));
   for (int v = 0; v < disparity.height(); ++v) {
     smooth_row(disparity.row(v), disparity.stride(), limits.smooth_radius_px, limits.smooth,
                static_cast<std::size_t>(disparity.width()), smooth.row(v));
@@ -46,9 +46,10 @@ Heights smoothed(Heights const& disparity, Limits const& limits) {
 }
 
 /// The frame's own noise: what three quarters of the pixels on a coarse grid are less concave than.
-int noise_of(Heights const& disparity, Heights const& concavity) {
-  // Counted by value: there are few values, and none below 0.
-  std::vector<std::uint32_t> counts(std::numeric_limits<std::int16_t>::max() + std::size_t{1}, 0);
+int noise_of(Heights const& disparity, Heights const& concavity, Limits const& limits) {
+  // Counted by value: there are few, none below 0, and none as high as two reaches.
+  std::vector<std::uint32_t> counts(2 * static_cast<std::size_t>(std::max<int>(limits.reach, 1)),
+                                    0);
   std::uint32_t total = 0;
   for (int v = 0; v < disparity.height(); v += 3) {
     for (int u = 0; u < disparity.width(); u += 5) {
@@ -97,7 +98,7 @@ SurfaceMap map_surfaces(Grid<float> const& depth_m, Limits const& limits) {
     concavity_row(smooth.row(v), pairs, count, map.concavity.row(v), steepness.row(v));
     map.concavity.end_row(v);
   }
-  int const noise = noise_of(map.disparity, map.concavity);
+  int const noise = noise_of(map.disparity, map.concavity, limits);
   int const crease =
       std::max(limits.crease, static_cast<int>(std::lround(limits.crease_noise * noise)));
   CreaseLimits const creases{static_cast<std::int16_t>(std::min(crease, 32000)), limits.slope,

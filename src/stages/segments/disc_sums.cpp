@@ -1,0 +1,131 @@
+#include "stages/segments/disc_sums.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/segments/disc_sums.cpp"  // NOLINT(*-macro-usage): Highway
+#include <hwy/foreach_target.h>
+//
+#include <hwy/highway.h>
+
+#include "stages/segments/limits.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace credo::segments::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DiscLanes = hn::CappedTag<std::int32_t, 16>;
+using DiscVec = hn::Vec<DiscLanes>;
+
+/// Of some pixels what DiscSums adds up, in its order; the squares of disparities in two halves.
+enum Term : std::size_t { kN, kU, kV, kD, kUU, kUV, kVV, kUD, kVD, kLowDD, kHighDD, kTerms };
+using Terms = std::array<DiscVec, kTerms>;
+
+HWY_INLINE Terms terms_at(std::int16_t const* disparity, DiscVec u, int row_v) {
+  DiscLanes const d;
+  hn::Rebind<std::int16_t, DiscLanes> const half;
+  DiscVec const low = hn::Set(d, 0xFFFF);
+  DiscVec const v = hn::Set(d, row_v);
+  hn::Vec<decltype(half)> of_each;
+  hn::Vec<decltype(half)> between;
+  hn::LoadInterleaved2(half, disparity, of_each, between);
+  DiscVec const disparities = hn::PromoteTo(d, of_each);
+  DiscVec const dd = disparities * disparities;
+  return {hn::Set(d, 1),
+          u,
+          v,
+          disparities,
+          u * u,
+          u * v,
+          hn::Set(d, row_v * row_v),
+          u * disparities,
+          v * disparities,
+          hn::And(dd, low),
+          hn::ShiftRight<16>(dd)};
+}
+
+HWY_INLINE void add_where(hn::Mask<DiscLanes> where, Terms const& terms, Terms& sums) {
+  for (std::size_t i = 0; i < kTerms; ++i) {
+    sums[i] = sums[i] + hn::IfThenElseZero(where, terms[i]);
+  }
+}
+
+HWY_INLINE void add_lanes(Terms const& lanes, DiscSums& sums) {
+  auto const sum = [&](Term term) HWY_ATTR {
+    DiscLanes const d;
+    return std::int64_t{hn::GetLane(hn::SumOfLanes(d, lanes[term]))};
+  };
+  sums.n += sum(kN);
+  sums.u += sum(kU);
+  sums.v += sum(kV);
+  sums.d += sum(kD);
+  sums.uu += sum(kUU);
+  sums.uv += sum(kUV);
+  sums.vv += sum(kVV);
+  sums.ud += sum(kUD);
+  sums.vd += sum(kVD);
+  sums.dd += sum(kLowDD) + (sum(kHighDD) << 16);
+}
+
+/// Of so few rows that the sums fit 32 bits.
+HWY_INLINE void add_rows(DiscCentre const& centre, std::span<DiscRow const> rows,
+                         std::int32_t label_a, std::int32_t label_b, TwoSums& sums) {
+  DiscLanes const d;
+  DiscVec const a = hn::Set(d, label_a);
+  DiscVec const b = hn::Set(d, label_b);
+  DiscVec const columns = hn::Iota(d, 0) + hn::Iota(d, 0);
+  Terms sums_a;
+  sums_a.fill(hn::Zero(d));
+  Terms sums_b = sums_a;
+  for (DiscRow const& row : rows) {
+    DiscVec const end = hn::Set(d, row.last_u + 1);
+    for (int u = row.first_u; u <= row.last_u; u += 2 * static_cast<int>(hn::Lanes(d))) {
+      std::ptrdiff_t const at = row.v * centre.stride + u;
+      DiscVec labels;
+      DiscVec between;
+      hn::LoadInterleaved2(d, centre.label + at, labels, between);
+      DiscVec const us = hn::Set(d, u) + columns;
+      auto const inside = us < end;
+      Terms const terms = terms_at(centre.disparity + at, us, row.v);
+      add_where(hn::And(inside, labels == a), terms, sums_a);
+      add_where(hn::And(inside, labels == b), terms, sums_b);
+    }
+  }
+  add_lanes(sums_a, sums.a);
+  add_lanes(sums_b, sums.b);
+}
+
+TwoSums disc_sums_lanes(DiscCentre const& centre, std::span<DiscRow const> rows,
+                        std::int32_t label_a, std::int32_t label_b) {
+  // The largest terms are products of a distance and a disparity below 2^15.
+  int radius = 1;
+  for (DiscRow const& row : rows) {
+    radius = std::max({radius, std::abs(row.v), -row.first_u, row.last_u});
+  }
+  auto const at_once = static_cast<std::size_t>((1 << 16) / (radius * (radius + 1)));
+  TwoSums sums;
+  while (!rows.empty()) {
+    std::size_t const some = std::min(at_once, rows.size());
+    add_rows(centre, rows.first(some), label_a, label_b, sums);
+    rows = rows.subspan(some);
+  }
+  return sums;
+}
+
+}  // namespace credo::segments::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace credo::segments {
+
+HWY_EXPORT(disc_sums_lanes);
+
+TwoSums disc_sums(DiscCentre const& centre, std::span<DiscRow const> rows, std::int32_t label_a,
+                  std::int32_t label_b) {
+  return HWY_DYNAMIC_DISPATCH(disc_sums_lanes)(centre, rows, label_a, label_b);
+}
+
+}  // namespace credo::segments
+#endif
