@@ -55,6 +55,18 @@ TEST(StuffItems, SliversAreBelievedLessAtFirst) {
   EXPECT_LT(seen_first(0.02), seen_first(0.2) - 1.0);
 }
 
+TEST(StuffItems, OfWhatIsSmallHalfTells) {
+  auto const tells = [](int agreeing, double most_agreeing) {
+    PointCounts look;
+    look[PointState::kAgrees] = agreeing;
+    return finding_of(look, most_agreeing, false).has_value();
+  };
+  EXPECT_TRUE(tells(6, 12.0));
+  EXPECT_FALSE(tells(5, 12.0));
+  EXPECT_TRUE(tells(8, 40.0));
+  EXPECT_FALSE(tells(7, 40.0)) << "8 of what is larger";
+}
+
 // L + n log((1 - k + k .95) / (1 - k + k .05)) up to the bound, k = 1 - exp(-dt / 0.25 s).
 TEST(StuffItems, ASensorThatStandsStillFollowsTheClosedForm) {
   Room room;
@@ -232,11 +244,54 @@ TEST(StuffItems, WhatIsAnothersIsNotLearnt) {
   EXPECT_LT(room.stuff()[0].latest().bounds_world.max().x(), 0.13F);
 }
 
+/// A floor, a wall and a box that was found, all of which face the camera at this distance.
+BeliefState with_known_at(double z_m) {
+  BeliefState belief;
+  FloorBelief& floor = belief.floor.emplace();
+  floor.height_m = z_m;
+  floor.points = std::make_shared<PointList const>(PointList{{0, 0, static_cast<float>(z_m)}});
+  floor.log_odds = 1.0;
+  WallBelief& wall = belief.walls.emplace_back();
+  wall.plane_world = {-Eigen::Vector3d::UnitZ(), -z_m};
+  wall.segment_start_m = {-1, 0};
+  wall.segment_end_m = {1, 0};
+  wall.log_odds = 1.0;
+  ObjectBelief& object = belief.objects.emplace_back();
+  object.type = "box";
+  object.log_odds = 1.0;
+  object.label = static_cast<LabelCode>(kFirstObject + 2);
+  object.pose_world.mean = Se3(Eigen::Quaterniond::Identity(), {0, 0, z_m});
+  object.pose_world.covariance = 1e-6 * Matrix6d::Identity();
+  return belief;
+}
+
+/// Of these only what a frame may show as `label`.
+BeliefState with_known_at(double z_m, LabelCode label) {
+  BeliefState belief = with_known_at(z_m);
+  if (label != kFloor) {
+    belief.floor.reset();
+  }
+  if (label != kFirstWall) {
+    belief.walls.clear();
+  }
+  if (!is_object(label)) {
+    belief.objects.clear();
+  }
+  return belief;
+}
+
+KnownSurfaces const& boxes() {
+  static KnownSurfaces const known = known_surfaces(
+      {{"box", {"box", std::vector<Solid>{BoxSolid{{-1, -1, 0.0}, {1, 1, 0.5}}}, {}}}});
+  return known;
+}
+
 class KnownByNow : public testing::TestWithParam<LabelCode> {};
 
 TEST_P(KnownByNow, WhatShowsAsSuchForLongWasThat) {
   Room room;
   room.show({.boards = {{kFirst}}}, 60);
+  room.know(with_known_at(1.5, GetParam()), boxes());
   double const before = room.stuff().at(0).log_odds;
   room.show({.boards = {{GetParam()}}}, 3);
   ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
@@ -245,6 +300,18 @@ TEST_P(KnownByNow, WhatShowsAsSuchForLongWasThat) {
   EXPECT_GT(room.stuff()[0].log_odds, 0.0) << "but a frame may err";
   room.show({.boards = {{GetParam()}}}, 50);
   EXPECT_TRUE(room.stuff().empty());
+}
+
+// A door in its wall, say, that a frame takes for that.
+TEST_P(KnownByNow, WhatShowsAsSuchButStandsBeforeItIsSeen) {
+  Room room;
+  room.show({.boards = {{kFirst}}}, 5);
+  room.know(with_known_at(1.53, GetParam()), boxes());
+  double const before = room.stuff().at(0).log_odds;
+  room.show({.boards = {{GetParam()}}}, 50);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
+  EXPECT_EQ(room.stuff()[0].evidence, Evidence::kSeen);
+  EXPECT_GE(room.stuff()[0].log_odds, before);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, KnownByNow, testing::Values(kFloor, kFirstWall, kFirstObject + 2));
