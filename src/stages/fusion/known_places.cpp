@@ -42,9 +42,8 @@ KnownPlaces::KnownPlaces(BeliefState const& belief, KnownSurfaces const& surface
     if (surface == surfaces.end()) {
       continue;
     }
-    if (object.log_odds > 0.0) {
-      add_known(object.label ? found_objects_ : objects_, surface->second, object.pose_world,
-                object.log_odds);
+    if (object.log_odds > 0.0 && !object.label) {
+      add_known(objects_, surface->second, object.pose_world, object.log_odds);
     }
     if (object.other_place) {
       add_known(other_places_, surface->second, object.other_place->pose_world,
@@ -78,23 +77,6 @@ double KnownPlaces::share_known(std::span<Eigen::Vector3f const> points_world,
   return points_world.empty()
              ? 0.0
              : static_cast<double>(known) / static_cast<double>(points_world.size());
-}
-
-bool KnownPlaces::are_known(std::span<SurfacePoint const> points_world) const {
-  constexpr std::size_t kMostPoints = 200;
-  std::size_t const stride = (points_world.size() + kMostPoints - 1) / kMostPoints;
-  std::size_t known = 0;
-  std::size_t all = 0;
-  for (std::size_t i = 0; i < points_world.size(); i += stride) {
-    Eigen::Vector3d const p_world = points_world[i].p_world.cast<double>();
-    bool const on_floor =
-        floor_world_ && std::abs(floor_world_->signed_distance_m(p_world)) < noise_m(p_world);
-    bool const on_found = std::ranges::any_of(
-        found_objects_, [&](Place const& place) { return is_at(place, p_world); });
-    known += on_floor || on_found || has_wall_at(p_world) || has_object_at(p_world) ? 1 : 0;
-    ++all;
-  }
-  return 2 * known > all;
 }
 
 double KnownPlaces::share_free_before(std::span<Eigen::Vector3f const> points_world) const {

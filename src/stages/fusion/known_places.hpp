@@ -41,10 +41,6 @@ public:
   /// cabinet a wall seems to lie on it.
   [[nodiscard]] double share_known(std::span<Eigen::Vector3f const> points_world,
                                    bool may_be_object) const;
-  /// Whether most of the points are where the floor, a wall or a known object is believed, found or
-  /// not: what the frame calls one of these elsewhere, such as a door in its wall, may be that all
-  /// the same.
-  [[nodiscard]] bool are_known(std::span<SurfacePoint const> points_world) const;
   /// Of the points that the last frame told of, the part that it saw through: what stands there now
   /// came there since. 0 where it told of fewer than 8.
   [[nodiscard]] double share_free_before(std::span<Eigen::Vector3f const> points_world) const;
@@ -74,7 +70,6 @@ private:
   std::optional<Plane> floor_world_;
   std::vector<Strip> walls_;
   std::vector<Place> objects_;
-  std::vector<Place> found_objects_;
   std::vector<Place> other_places_;
 };
 

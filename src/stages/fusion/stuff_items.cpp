@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "stages/fusion/existence.hpp"
+#include "stages/fusion/shown_planes.hpp"
 #include "stages/fusion/stuff_findings.hpp"
 #include "stages/fusion/stuff_learning.hpp"
 #include "stages/fusion/stuff_looks.hpp"
@@ -42,6 +43,7 @@ public:
       : known_(std::move(known)),
         segmentation_(segmentation),
         places_(places),
+        planes_(segmentation),
         elapsed_s_(elapsed_s),
         config_(config),
         now_{segmentation.stamp_ns, segmentation.T_world_camera.translation()},
@@ -224,10 +226,7 @@ private:
     std::size_t explained = 0;
     for (std::size_t const block : seen.blocks) {
       std::int32_t const owner = looks_.owners()[block];
-      if (owner < 0) {
-        continue;
-      }
-      if (is_base_of(static_cast<std::size_t>(owner), label)) {
+      if (owner < 0 || is_base_of(static_cast<std::size_t>(owner), label)) {
         continue;
       }
       auto const& shares = look(static_cast<std::size_t>(owner)).shares;
@@ -284,7 +283,7 @@ private:
   [[nodiscard]] bool shows_known(std::size_t j) const {
     auto const share = std::ranges::find(look(j).shares, kFloor, &ClusterShare::label);
     return share != look(j).shares.end() && mostly_in(j, share->blocks) &&
-           places_.are_known(known_.stuff[j].model->points);
+           planes_.are_what_shows(look(j));
   }
 
   [[nodiscard]] std::size_t look_count() const { return looks_.looks().size(); }
@@ -372,6 +371,7 @@ private:
   FusedStuff known_;
   Segmentation const& segmentation_;
   KnownPlaces const& places_;
+  ShownPlanes planes_;
   double elapsed_s_;
   FusionConfig const& config_;
   Look now_;

@@ -51,21 +51,13 @@ public:
     config_.births = {.log_odds = log_odds_of(born), .per_log_thickness = 0.0};
   }
 
-  /// From now on with this floor, these walls and objects.
-  void know(BeliefState const& surroundings, KnownSurfaces surfaces = {}) {
-    surroundings_.floor = surroundings.floor;
-    surroundings_.walls = surroundings.walls;
-    surroundings_.objects = surroundings.objects;
-    surfaces_ = std::move(surfaces);
-  }
-
   FusedStuff const& show(View view, int times = 1) {
     for (int k = 0; k < times; ++k) {
       view.stamp_ns = kFrame_ns * frame_++;
       std::vector<StuffBelief> const before = stuff_.stuff;
       Segmentation const frame = segmentation_of(view);
       surroundings_.T_world_camera = frame.T_world_camera;
-      stuff_ = fused_items(std::move(stuff_), frame, KnownPlaces(surroundings_, surfaces_),
+      stuff_ = fused_items(std::move(stuff_), frame, KnownPlaces(surroundings_, {}),
                            1e-9 * kFrame_ns, config_);
       if (kind_ == kWithSight) {
         surroundings_.last_sight =
@@ -87,7 +79,6 @@ public:
 private:
   RoomKind kind_;
   BeliefState surroundings_;
-  KnownSurfaces surfaces_;
   FusionConfig config_;
   FusedStuff stuff_;
   std::int64_t frame_ = 0;

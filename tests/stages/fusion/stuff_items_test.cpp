@@ -244,54 +244,11 @@ TEST(StuffItems, WhatIsAnothersIsNotLearnt) {
   EXPECT_LT(room.stuff()[0].latest().bounds_world.max().x(), 0.13F);
 }
 
-/// A floor, a wall and a box that was found, all of which face the camera at this distance.
-BeliefState with_known_at(double z_m) {
-  BeliefState belief;
-  FloorBelief& floor = belief.floor.emplace();
-  floor.height_m = z_m;
-  floor.points = std::make_shared<PointList const>(PointList{{0, 0, static_cast<float>(z_m)}});
-  floor.log_odds = 1.0;
-  WallBelief& wall = belief.walls.emplace_back();
-  wall.plane_world = {-Eigen::Vector3d::UnitZ(), -z_m};
-  wall.segment_start_m = {-1, 0};
-  wall.segment_end_m = {1, 0};
-  wall.log_odds = 1.0;
-  ObjectBelief& object = belief.objects.emplace_back();
-  object.type = "box";
-  object.log_odds = 1.0;
-  object.label = static_cast<LabelCode>(kFirstObject + 2);
-  object.pose_world.mean = Se3(Eigen::Quaterniond::Identity(), {0, 0, z_m});
-  object.pose_world.covariance = 1e-6 * Matrix6d::Identity();
-  return belief;
-}
-
-/// Of these only what a frame may show as `label`.
-BeliefState with_known_at(double z_m, LabelCode label) {
-  BeliefState belief = with_known_at(z_m);
-  if (label != kFloor) {
-    belief.floor.reset();
-  }
-  if (label != kFirstWall) {
-    belief.walls.clear();
-  }
-  if (!is_object(label)) {
-    belief.objects.clear();
-  }
-  return belief;
-}
-
-KnownSurfaces const& boxes() {
-  static KnownSurfaces const known = known_surfaces(
-      {{"box", {"box", std::vector<Solid>{BoxSolid{{-1, -1, 0.0}, {1, 1, 0.5}}}, {}}}});
-  return known;
-}
-
 class KnownByNow : public testing::TestWithParam<LabelCode> {};
 
 TEST_P(KnownByNow, WhatShowsAsSuchForLongWasThat) {
   Room room;
   room.show({.boards = {{kFirst}}}, 60);
-  room.know(with_known_at(1.5, GetParam()), boxes());
   double const before = room.stuff().at(0).log_odds;
   room.show({.boards = {{GetParam()}}}, 3);
   ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
@@ -302,19 +259,37 @@ TEST_P(KnownByNow, WhatShowsAsSuchForLongWasThat) {
   EXPECT_TRUE(room.stuff().empty());
 }
 
-// A door in its wall, say, that a frame takes for that.
-TEST_P(KnownByNow, WhatShowsAsSuchButStandsBeforeItIsSeen) {
-  Room room;
-  room.show({.boards = {{kFirst}}}, 5);
-  room.know(with_known_at(1.53, GetParam()), boxes());
-  double const before = room.stuff().at(0).log_odds;
-  room.show({.boards = {{GetParam()}}}, 50);
-  ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
-  EXPECT_EQ(room.stuff()[0].evidence, Evidence::kSeen);
-  EXPECT_GE(room.stuff()[0].log_odds, before);
+INSTANTIATE_TEST_SUITE_P(Kinds, KnownByNow, testing::Values(kFloor, kFirstWall, kFirstObject + 2));
+
+/// A thing at 1.5 m, and then 50 frames that call it floor, or a wall, in a plane that far away.
+FusedStuff shown_as_known(LabelCode label, double plane_z_m) {
+  FusedStuff stuff;
+  for (int i = 0; i < 60; ++i) {
+    bool const itself = i < 10;
+    Segmentation frame =
+        test::segmentation_of({.boards = {{itself ? kFirst : label}}, .stamp_ns = kFrame_ns * i});
+    Plane const plane{-Eigen::Vector3d::UnitZ(), -plane_z_m};
+    if (!itself && label == kFloor) {
+      frame.floor.emplace().plane_world = plane;
+    } else if (!itself) {
+      frame.walls.emplace_back(WallObservation{label, plane, {}, 1});
+    }
+    stuff = fused_items(std::move(stuff), frame, KnownPlaces({}, {}), 1e-9 * kFrame_ns, {});
+  }
+  return stuff;
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, KnownByNow, testing::Values(kFloor, kFirstWall, kFirstObject + 2));
+// A door in its wall, say, that a frame takes for that.
+TEST(StuffItems, WhatShowsAsAPlaneButStandsBeforeItIsSeen) {
+  for (LabelCode const label : {kFloor, kFirstWall}) {
+    EXPECT_TRUE(shown_as_known(label, 1.5).stuff.empty());
+    EXPECT_TRUE(shown_as_known(label, 1.515).stuff.empty()) << "noise";
+    FusedStuff const before_it = shown_as_known(label, 1.53);
+    ASSERT_EQ(before_it.stuff.size(), 1U);
+    EXPECT_EQ(before_it.stuff[0].evidence, Evidence::kSeen);
+    EXPECT_GT(probability_of(before_it.stuff[0].log_odds), 0.95);
+  }
+}
 
 TEST(StuffItems, WhatNothingExplainsStays) {
   Room room;
