@@ -47,7 +47,7 @@ COLUMNS = [
     ("object P %", lambda s: s["objects"]["precision"], "{:.0%}"),
     ("object R %", lambda s: s["objects"]["recall"], "{:.0%}"),
     ("mm", lambda s: mm(s["objects"]["translation_m"]), "{:.1f}"),
-    ("NEES", lambda s: s["objects"]["nees"], "{:.1f}"),
+    ("NEES (95 %)", lambda s: nees(s["objects"]), "{}"),
     ("ECE", lambda s: s["existence"]["ece"], "{:.3f}"),
     ("Brier", lambda s: s["existence"]["brier"], "{:.3f}"),
     ("change P %", lambda s: s["change"]["precision"], "{:.0%}"),
@@ -66,6 +66,11 @@ PEERS = [
 
 def mm(metres):
     return None if metres is None else 1000 * metres
+
+
+def nees(objects):
+    """With the bounds of an honest one."""
+    return None if objects["nees"] is None else "{nees:.1f} ({nees_low:.1f} to {nees_high:.1f})".format(**objects)
 
 
 def switches(stuff):

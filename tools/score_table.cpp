@@ -55,6 +55,16 @@ std::string camera_row(std::string const& name, std::optional<CameraScores> cons
                           : "-");
 }
 
+std::string nees_text(ObjectScores const& objects) {
+  std::string text = fmt::format("NEES {} (expected {}", number_text(objects.nees, 2, ""),
+                                 number_text(objects.nees_expected, 2, ""));
+  if (auto const inside = objects.nees_inside()) {
+    text += fmt::format(", 95 % within {:.2f} to {:.2f}: {}", *objects.nees_low, *objects.nees_high,
+                        *inside ? "inside" : "outside");
+  }
+  return text + ")";
+}
+
 }  // namespace
 
 std::string score_table(Scores const& scores) {
@@ -80,11 +90,9 @@ std::string score_table(Scores const& scores) {
   table += row("objects",
                fmt::format("precision {}, recall {}, ADD-S recall {}", percent(objects.precision),
                            percent(objects.recall), percent(objects.adds_recall)));
-  table += row("  poses", fmt::format("{} and {} off, NEES {} (expected {})",
-                                      number_text(objects.translation_m, 4, " m"),
-                                      number_text(objects.rotation_deg, 2, " degrees"),
-                                      number_text(objects.nees, 2, ""),
-                                      number_text(objects.nees_expected, 2, "")));
+  table += row("  poses",
+               fmt::format("{} and {} off, {}", number_text(objects.translation_m, 4, " m"),
+                           number_text(objects.rotation_deg, 2, " degrees"), nees_text(objects)));
   table += scores.existence ? existence_row(*scores.existence) : row("existence", "-");
   table += row("change", fmt::format("precision {}, recall {} of {}, noticed after {}",
                                      percent(scores.change.precision),

@@ -57,6 +57,13 @@ struct FloorBelief : SurfaceBelief {
   double height_m = 0.0;
 };
 
+/// Sums over points of a plane, each by how well it is measured. World frame.
+struct PlaneSums {
+  double weight = 0.0;
+  Eigen::Vector3d points = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+};
+
 /// A wall as a line segment on the floor, swept along z (thesis 4.2). World frame.
 struct WallBelief : SurfaceBelief {
   std::uint32_t id = 0;
@@ -65,6 +72,8 @@ struct WallBelief : SurfaceBelief {
   Eigen::Vector2d segment_end_m = Eigen::Vector2d::Zero();
   /// Pixels of all observations so far: the weight of the normal and offset in the next merge.
   double weight_pixels = 0.0;
+  /// Over the points of all observations, where the plane is fitted to them; else empty.
+  PlaneSums sums;
   /// Its code in the last frame's label image; none where that frame did not show it.
   std::optional<LabelCode> label;
 };

@@ -57,8 +57,17 @@ struct ObjectScores {
   std::optional<double> nees;
   /// What `nees` is if the claims are right: the mean of the degrees of freedom.
   std::optional<double> nees_expected;
+  /// Between which `nees` lies 95 times in 100 if the claims are right and independent. Those of
+  /// one object in frames that follow each other are not.
+  std::optional<double> nees_low;
+  std::optional<double> nees_high;
   std::optional<double> precision;
   std::optional<double> recall;
+
+  [[nodiscard]] std::optional<bool> nees_inside() const {
+    return nees && nees_low && nees_high ? std::optional(*nees_low <= *nees && *nees <= *nees_high)
+                                         : std::nullopt;
+  }
 };
 
 /// Of the claims that fall into a tenth of [0, 1].

@@ -10,6 +10,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "eval/nees_bounds.hpp"
 #include "geometry/pose_fusion.hpp"
 
 namespace credo {
@@ -71,9 +72,9 @@ NeesScores nees_scores(std::vector<double> values, double degrees_of_freedom) {
   std::ranges::sort(values);
   scores.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
   scores.median = quantile(values, 0.5);
-  chi_squared const of_sum(count * degrees_of_freedom);
-  scores.low_bound = boost::math::quantile(of_sum, kOuterShare) / count;
-  scores.high_bound = boost::math::quantile(of_sum, 1.0 - kOuterShare) / count;
+  NeesBounds const bounds = nees_bounds(count * degrees_of_freedom, values.size());
+  scores.low_bound = bounds.low;
+  scores.high_bound = bounds.high;
   double const limit = boost::math::quantile(chi_squared(degrees_of_freedom), 0.95);
   scores.coverage =
       static_cast<double>(std::ranges::count_if(values, [&](double v) { return v <= limit; })) /

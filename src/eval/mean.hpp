@@ -15,6 +15,7 @@ public:
   [[nodiscard]] std::optional<double> value() const {
     return count_ > 0 ? std::optional(sum_ / static_cast<double>(count_)) : std::nullopt;
   }
+  [[nodiscard]] std::uint64_t count() const { return count_; }
 
 private:
   double sum_ = 0.0;

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <numbers>
 
+#include "eval/nees_bounds.hpp"
 #include "geometry/pose_fusion.hpp"
 
 namespace credo {
@@ -94,8 +95,21 @@ void ObjectScorer::add(BeliefSummary const& belief, FrameTruth const& truth,
 }
 
 ObjectScores ObjectScorer::scores() const {
-  return {translation_m_.value(),      rotation_deg_.value(), within_tenth_.value(), nees_.value(),
-          degrees_of_freedom_.value(), precise_.value(),      recalled_.value()};
+  ObjectScores scores;
+  scores.translation_m = translation_m_.value();
+  scores.rotation_deg = rotation_deg_.value();
+  scores.adds_recall = within_tenth_.value();
+  scores.nees = nees_.value();
+  scores.nees_expected = degrees_of_freedom_.value();
+  if (scores.nees_expected) {
+    auto const count = static_cast<double>(nees_.count());
+    NeesBounds const bounds = nees_bounds(*scores.nees_expected * count, nees_.count());
+    scores.nees_low = bounds.low;
+    scores.nees_high = bounds.high;
+  }
+  scores.precision = precise_.value();
+  scores.recall = recalled_.value();
+  return scores;
 }
 
 }  // namespace credo

@@ -205,9 +205,17 @@ PoseDistribution updated_pose(PoseDistribution const& expected, PoseDistribution
   return {mean, symmetric(to_frame * covariance * to_frame.transpose())};
 }
 
-double largest_deviation_m(PoseDistribution const& pose, double radius_m) {
-  double const shifted_m2 = pose.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff();
-  double const turned_rad2 = pose.covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff();
+double largest_deviation_m(PoseDistribution const& pose, double radius_m,
+                           Symmetry const& symmetry) {
+  Matrix6d covariance = pose.covariance;
+  if (symmetry.axis) {
+    Matrix6d to_seen = model_errors(pose.mean, symmetry.axis->point_m);
+    Eigen::Vector3d const& axis = symmetry.axis->direction;
+    to_seen.bottomRows<3>() -= axis * (axis.transpose() * to_seen.bottomRows<3>());
+    covariance = to_seen * covariance * to_seen.transpose();
+  }
+  double const shifted_m2 = covariance.topLeftCorner<3, 3>().diagonal().maxCoeff();
+  double const turned_rad2 = covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff();
   return std::sqrt(std::max(0.0, shifted_m2 + turned_rad2 * radius_m * radius_m));
 }
 

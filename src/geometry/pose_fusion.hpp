@@ -28,9 +28,11 @@ struct PoseMatch {
 [[nodiscard]] PoseMatch match_pose(PoseDistribution const& expected,
                                    PoseDistribution const& detected, Symmetry const& symmetry);
 
-/// One deviation of the place of a point `radius_m` from the origin of the pose, along the
-/// direction in which it is known least, turn and shift taken at their largest.
-[[nodiscard]] double largest_deviation_m(PoseDistribution const& pose, double radius_m);
+/// One deviation of the place of a point of the surface, `radius_m` from the origin of the pose,
+/// along the direction in which it is known least, turn and shift taken at their largest. Turns
+/// about the model's symmetry axis do not move the surface, however little is known of them.
+[[nodiscard]] double largest_deviation_m(PoseDistribution const& pose, double radius_m,
+                                         Symmetry const& symmetry);
 
 /// How much of a detection to take.
 struct PoseUpdate {

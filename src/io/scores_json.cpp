@@ -8,7 +8,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(std::optional<double> const& value) {
+template <typename Value>
+Json json_of(std::optional<Value> const& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
@@ -66,6 +67,9 @@ std::string scores_json(Scores const& scores) {
                      {"adds_recall", json_of(objects.adds_recall)},
                      {"nees", json_of(objects.nees)},
                      {"nees_expected", json_of(objects.nees_expected)},
+                     {"nees_low", json_of(objects.nees_low)},
+                     {"nees_high", json_of(objects.nees_high)},
+                     {"nees_inside", json_of(objects.nees_inside())},
                      {"precision", json_of(objects.precision)},
                      {"recall", json_of(objects.recall)}};
   json["existence"] = {{"ece", nullptr}, {"brier", nullptr}, {"reliability", nullptr}};

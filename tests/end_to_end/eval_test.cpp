@@ -114,6 +114,30 @@ TEST_F(Eval, PosesACentimetreOffAreACentimetreOff) {
   EXPECT_EQ(after, before) << "nothing else moves";
 }
 
+// Six claims of six degrees of freedom: 36 have the quantiles 21.336 and 54.437.
+TEST_F(Eval, TellsWithinWhatAnHonestNeesLies) {
+  auto const text = [&] {
+    return credo({"eval", run().string(), "--truth", truth().string()}).out;
+  };
+  json perfect = scores()["objects"];
+  EXPECT_NEAR(perfect["nees_low"], 21.336 / 6.0, 1e-3);
+  EXPECT_NEAR(perfect["nees_high"], 54.437 / 6.0, 1e-3);
+  EXPECT_EQ(perfect["nees_inside"], false);
+  EXPECT_NE(text().find("NEES 0.00 (expected 6.00, 95 % within 3.56 to 9.07: outside)"),
+            std::string::npos)
+      << text();
+  for (json& belief : beliefs_) {
+    for (json& object : belief["objects"]) {
+      object["position"][1] = object["position"][1].get<double>() + 0.02;
+    }
+  }
+  write_beliefs();
+  EXPECT_EQ(scores()["objects"]["nees_inside"], true);
+  EXPECT_NE(text().find("NEES 4.00 (expected 6.00, 95 % within 3.56 to 9.07: inside)"),
+            std::string::npos)
+      << text();
+}
+
 TEST_F(Eval, ErodedLabelsMoveTheSegmentationOnly) {
   json const before = scores();
   fs::path const path = run() / "labels/000001.png";

@@ -114,6 +114,38 @@ TEST(Evaluation, PosesACentimetreOffMoveTheObjectsOnly) {
   EXPECT_EQ(scores.objects.precision, 1.0);
 }
 
+/// What is told of poses that are all so many standard deviations off.
+ObjectScores objects_off(double sigmas) {
+  return scores_of(spoilt([&](RunFrame& frame) {
+           for (ObjectSummary& object : frame.belief.objects) {
+             object.position_m.y() += sigmas * kRoomSigma;
+           }
+         }))
+      .objects;
+}
+
+// Five frames of a box (6) and a bottle (5): 55 degrees of freedom of ten claims. The quantiles are
+// those of tables of the chi-square distribution.
+TEST(Evaluation, TheMeanOfHonestErrorsIsWithinItsBounds) {
+  ObjectScores const honest = objects_off(std::sqrt(5.5));
+  EXPECT_NEAR(*honest.nees, 5.5, 1e-9);
+  EXPECT_NEAR(*honest.nees_low, 36.398 / 10.0, 1e-4);
+  EXPECT_NEAR(*honest.nees_high, 77.380 / 10.0, 1e-4);
+  EXPECT_EQ(honest.nees_inside(), true);
+  EXPECT_EQ(objects_off(std::sqrt(3.7)).nees_inside(), true);
+  EXPECT_EQ(objects_off(std::sqrt(3.6)).nees_inside(), false) << "too modest";
+  EXPECT_EQ(objects_off(std::sqrt(7.7)).nees_inside(), true);
+  EXPECT_EQ(objects_off(std::sqrt(7.8)).nees_inside(), false) << "too sure";
+}
+
+TEST(Evaluation, WithoutAnObjectThereAreNoBounds) {
+  ObjectScores const none =
+      scores_of(spoilt([](RunFrame& frame) { frame.belief.objects.clear(); })).objects;
+  EXPECT_FALSE(none.nees_low);
+  EXPECT_FALSE(none.nees_high);
+  EXPECT_FALSE(none.nees_inside());
+}
+
 TEST(Evaluation, ACameraTwoCentimetresOffMovesTheCameraOnly) {
   Scores const scores =
       scores_of(spoilt([](RunFrame& frame) { frame.belief.T_world_camera(1, 3) += 0.02; }));

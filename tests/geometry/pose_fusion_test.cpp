@@ -235,6 +235,21 @@ TEST(UpdatedPose, NothingIsEverLearntAboutATurnThatCannotBeSeen) {
   EXPECT_LT((pose.mean * kAxis.point_m - kPose * kAxis.point_m).norm(), 0.002);
 }
 
+// A tenth of a radian about the axis, beside which the origin stands: the surface does not move.
+TEST(LargestDeviation, LeavesOutTurnsThatCannotBeSeen) {
+  Vector6d sigma;
+  sigma << 0.01, 0.01, 0.01, 0.02, 0.02, 0.02;
+  PoseDistribution pose = about(kPose, sigma);
+  double const before_m = largest_deviation_m(pose, 0.3, Symmetry{kAxis, {}});
+  Vector3d const direction = kPose.rotation() * kAxis.direction;
+  Vector6d turn;
+  turn << -direction.cross(kPose.rotation() * kAxis.point_m), direction;
+  pose.covariance += 0.01 * turn * turn.transpose();
+  EXPECT_NEAR(largest_deviation_m(pose, 0.3, Symmetry{kAxis, {}}), before_m, 1e-12);
+  EXPECT_GT(largest_deviation_m(pose, 0.3, {}), 0.02);
+  EXPECT_NEAR(before_m, std::hypot(0.01, 0.02 * 0.3), 0.005);
+}
+
 /// Mean of the squared normalised error of so many runs: the prior's mean is drawn from the prior,
 /// then come the looks.
 double mean_nees(std::mt19937& generator, Vector6d const& sigma, Vector6d const& noise, int looks,

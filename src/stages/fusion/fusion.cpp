@@ -1,6 +1,7 @@
 #include "stages/fusion/fusion.hpp"
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "stages/fusion/drift.hpp"
@@ -24,8 +25,12 @@ void fuse_surroundings(BeliefState& belief, Segmentation const& segmentation,
     look = look_around(belief.floor, belief.walls, segmentation);
   }
   belief.floor = fused_floor(std::move(belief.floor), segmentation.floor, config.floor);
-  FusedWalls walls =
-      fused_walls({std::move(belief.walls), belief.next_wall_id}, segmentation.walls, config.walls);
+  std::optional<Eigen::Vector3d> camera_world;
+  if (config.visibility) {
+    camera_world = segmentation.T_world_camera.translation();
+  }
+  FusedWalls walls = fused_walls({std::move(belief.walls), belief.next_wall_id}, segmentation.walls,
+                                 config.walls, camera_world);
   belief.walls = std::move(walls.walls);
   belief.next_wall_id = walls.next_id;
   if (config.visibility) {

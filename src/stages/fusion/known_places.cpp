@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/pose_fusion.hpp"
 #include "stages/fusion/points.hpp"
@@ -14,6 +15,9 @@ constexpr double kBeyondEnd_m = 0.1;
 
 /// An object whose place is not known as well as that explains nothing.
 constexpr double kKnown_m = 0.02;
+
+/// What lies there by so much is the object, if that stands there.
+constexpr double kMostOfIt = 0.7;
 
 }  // namespace
 
@@ -35,15 +39,25 @@ KnownPlaces::KnownPlaces(BeliefState const& belief, KnownSurfaces const& surface
   }
   for (ObjectBelief const& object : belief.objects) {
     auto const surface = surfaces.find(object.type);
-    if (surface == surfaces.end() || object.log_odds <= 0.0 || object.evidence == Evidence::kSeen) {
+    if (surface == surfaces.end()) {
       continue;
     }
-    double const radius_m = surface->second.radius_m;
-    double const sigma_m = largest_deviation_m(object.pose_world, radius_m);
-    if (sigma_m <= kKnown_m) {
-      objects_.push_back(
-          {surface->second.shape.get(), object.pose_world.mean.inverse(), sigma_m, radius_m});
+    if (object.log_odds > 0.0 && !object.label) {
+      add_known(objects_, surface->second, object.pose_world, object.log_odds);
     }
+    if (object.other_place) {
+      add_known(other_places_, surface->second, object.other_place->pose_world,
+                object.other_place->log_odds);
+    }
+  }
+}
+
+void KnownPlaces::add_known(std::vector<Place>& places, KnownSurface const& surface,
+                            PoseDistribution const& pose_world, double log_odds) {
+  double const sigma_m = largest_deviation_m(pose_world, surface.radius_m, surface.symmetry);
+  if (sigma_m <= kKnown_m) {
+    places.push_back(
+        {surface.shape.get(), pose_world.mean.inverse(), sigma_m, surface.radius_m, log_odds});
   }
 }
 
@@ -95,12 +109,27 @@ bool KnownPlaces::has_floor_at(Eigen::Vector3d const& p_world) const {
 }
 
 bool KnownPlaces::has_object_at(Eigen::Vector3d const& p_world) const {
-  return std::ranges::any_of(objects_, [&](Place const& place) {
-    double const tolerance_m = noise_m(p_world) + 2.0 * place.deviation_m;
-    Eigen::Vector3d const p_object = place.T_object_world * p_world;
-    return p_object.norm() < place.radius_m + tolerance_m &&
-           std::abs(place.shape->distance_to(p_object).distance_m) < tolerance_m;
-  });
+  return std::ranges::any_of(objects_, [&](Place const& place) { return is_at(place, p_world); });
+}
+
+bool KnownPlaces::is_at(Place const& place, Eigen::Vector3d const& p_world) const {
+  double const tolerance_m = noise_m(p_world) + 2.0 * place.deviation_m;
+  Eigen::Vector3d const p_object = place.T_object_world * p_world;
+  return p_object.norm() < place.radius_m + tolerance_m &&
+         std::abs(place.shape->distance_to(p_object).distance_m) < tolerance_m;
+}
+
+double KnownPlaces::most_log_odds_at(std::span<Eigen::Vector3f const> points_world) const {
+  double most = std::numeric_limits<double>::infinity();
+  for (Place const& place : other_places_) {
+    auto const there = std::ranges::count_if(points_world, [&](Eigen::Vector3f const& p_world) {
+      return is_at(place, p_world.cast<double>());
+    });
+    if (static_cast<double>(there) > kMostOfIt * static_cast<double>(points_world.size())) {
+      most = std::min(most, -place.log_odds);
+    }
+  }
+  return most;
 }
 
 }  // namespace credo

@@ -15,9 +15,9 @@ namespace credo {
 /// are: what a frame shows there is nothing new, though no plane was laid through it and no
 /// detector found it, as of a table that reaches into view by a corner.
 ///
-/// Objects count that the last frame did not find: of one that was found all has been taken out of
-/// the frame already, and what is left beside it may lie on it. And those whose place is known to 2
-/// cm.
+/// Objects count that have no region in the last frame: where one has, all of it has been taken out
+/// of the frame already, and what is left beside it may lie on it. And those whose place is known
+/// to 2 cm.
 class KnownPlaces {
 public:
   /// `belief` as it is after the frame but for stuff and the last sight; both must outlive it.
@@ -30,6 +30,11 @@ public:
   [[nodiscard]] bool has_floor_at(Eigen::Vector3d const& p_world) const;
   /// Whether an object's surface is as near, and two deviations of its place more.
   [[nodiscard]] bool has_object_at(Eigen::Vector3d const& p_world) const;
+
+  /// How far a thing at these points may be believed: where for the most part a known object is
+  /// found that is believed elsewhere (OtherPlace), either that stands there or a thing of its own.
+  /// Infinite where none is.
+  [[nodiscard]] double most_log_odds_at(std::span<Eigen::Vector3f const> points_world) const;
 
   /// The part of the points that are at known places. Not `may_be_object`: of floor and walls
   /// alone, for what lies on something: on a table it is none of that, however flat, but beside a
@@ -52,8 +57,12 @@ private:
     Se3 T_object_world;
     double deviation_m = 0.0;
     double radius_m = 0.0;
+    double log_odds = 0.0;
   };
 
+  static void add_known(std::vector<Place>& places, KnownSurface const& surface,
+                        PoseDistribution const& pose_world, double log_odds);
+  [[nodiscard]] bool is_at(Place const& place, Eigen::Vector3d const& p_world) const;
   [[nodiscard]] double noise_m(Eigen::Vector3d const& p_world) const;
 
   Eigen::Vector3d camera_world_;
@@ -61,6 +70,7 @@ private:
   std::optional<Plane> floor_world_;
   std::vector<Strip> walls_;
   std::vector<Place> objects_;
+  std::vector<Place> other_places_;
 };
 
 }  // namespace credo

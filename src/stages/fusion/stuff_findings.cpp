@@ -8,8 +8,10 @@
 namespace credo {
 namespace {
 
-// Nothing is learnt from fewer points, or from a smaller part of what was ever seen at once.
-constexpr int kLeastPoints = 8;
+// Nothing is learnt from fewer points, or from a smaller part of what was ever seen at once. Of
+// what never showed twice as many, half of it is enough.
+constexpr double kLeastPoints = 8.0;
+constexpr double kLeastOfSmall = 0.5;
 constexpr double kUsuallySeen = 0.8;
 constexpr double kLeastVisible = 0.1;
 // Part of these points that is seen through.
@@ -41,11 +43,15 @@ std::pair<double, double> likelihoods(Finding const& finding) {
 
 }  // namespace
 
+double least_told(double most_agreeing) {
+  return std::min(kLeastPoints, std::max(1.0, kLeastOfSmall * most_agreeing));
+}
+
 std::optional<Finding> finding_of(PointCounts const& look, double most_agreeing, bool matched) {
   int const agrees = look[PointState::kAgrees];
   int const told = agrees + look[PointState::kSeenThrough];
   double const visible = visible_share(look, most_agreeing);
-  if (told < kLeastPoints || visible <= kLeastVisible) {
+  if (told < least_told(most_agreeing) || visible <= kLeastVisible) {
     return std::nullopt;
   }
   double const through = static_cast<double>(told - agrees) / told;
@@ -74,6 +80,12 @@ double log_odds_step(Finding const& finding, double counts) {
 void raise_to(StuffBelief& item, double least_log_odds) {
   double const before = item.log_odds;
   item.log_odds = std::max(before, least_log_odds);
+  item.why.moved += item.log_odds - before;
+}
+
+void lower_to(StuffBelief& item, double most_log_odds) {
+  double const before = item.log_odds;
+  item.log_odds = std::min(before, most_log_odds);
   item.why.moved += item.log_odds - before;
 }
 

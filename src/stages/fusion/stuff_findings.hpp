@@ -21,6 +21,10 @@ struct Finding {
 [[nodiscard]] std::optional<Finding> finding_of(PointCounts const& look, double most_agreeing,
                                                 bool matched);
 
+/// How many points a look must tell of for anything to be learnt of a thing of which so many ever
+/// agreed with one frame.
+[[nodiscard]] double least_told(double most_agreeing);
+
 /// How much likelier the finding is if the thing is there.
 [[nodiscard]] double likelihood_ratio(Finding const& finding);
 
@@ -41,8 +45,9 @@ void believe(Thing& thing, Finding const& finding, Look const& now, double news,
   thing.last_look = now;
 }
 
-/// Believes a thing at least so much, and puts the jump to its account.
+/// Believes a thing at least, or at most, so much, and puts the jump to its account.
 void raise_to(StuffBelief& item, double least_log_odds);
+void lower_to(StuffBelief& item, double most_log_odds);
 
 /// Of a look by itself: it has moved nothing yet.
 [[nodiscard]] Account account_of(PointCounts const& look, double most_agreeing);

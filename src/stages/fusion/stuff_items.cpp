@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "stages/fusion/existence.hpp"
+#include "stages/fusion/shown_planes.hpp"
 #include "stages/fusion/stuff_findings.hpp"
 #include "stages/fusion/stuff_learning.hpp"
 #include "stages/fusion/stuff_looks.hpp"
@@ -28,7 +29,6 @@ constexpr double kLeastAgreement = 0.25;
 constexpr double kLeastShareOfCluster = 0.3;
 constexpr double kLeastShareOfThing = 0.4;
 // Merging.
-constexpr int kLeastBlocksInAnother = 8;
 constexpr double kShareInAnother = 0.6;
 constexpr double kLeastShown = 0.32;
 // What is so much of what a thing shows does not lie on it.
@@ -43,6 +43,7 @@ public:
       : known_(std::move(known)),
         segmentation_(segmentation),
         places_(places),
+        planes_(segmentation),
         elapsed_s_(elapsed_s),
         config_(config),
         now_{segmentation.stamp_ns, segmentation.T_world_camera.translation()},
@@ -164,6 +165,9 @@ private:
     } else if (is_on_its_way(item)) {
       lose_sight_of(item, elapsed_s_, config_.existence);
     }
+    if (item.label) {
+      lower_to(item, places_.most_log_odds_at(cluster(*item.label).points_world));
+    }
     if (matched) {
       bool const moved = has_moved(seen.counts);
       count_look(item, moved);
@@ -222,10 +226,7 @@ private:
     std::size_t explained = 0;
     for (std::size_t const block : seen.blocks) {
       std::int32_t const owner = looks_.owners()[block];
-      if (owner < 0) {
-        continue;
-      }
-      if (is_base_of(static_cast<std::size_t>(owner), label)) {
+      if (owner < 0 || is_base_of(static_cast<std::size_t>(owner), label)) {
         continue;
       }
       auto const& shares = look(static_cast<std::size_t>(owner)).shares;
@@ -275,12 +276,14 @@ private:
   }
 
   [[nodiscard]] bool mostly_in(std::size_t j, int blocks) const {
-    return look(j).blocks >= kLeastBlocksInAnother && blocks > kShareInAnother * look(j).blocks;
+    return look(j).blocks >= least_told(known_.stuff[j].most_agreeing) &&
+           blocks > kShareInAnother * look(j).blocks;
   }
 
   [[nodiscard]] bool shows_known(std::size_t j) const {
     auto const share = std::ranges::find(look(j).shares, kFloor, &ClusterShare::label);
-    return share != look(j).shares.end() && mostly_in(j, share->blocks);
+    return share != look(j).shares.end() && mostly_in(j, share->blocks) &&
+           planes_.are_what_shows(look(j));
   }
 
   [[nodiscard]] std::size_t look_count() const { return looks_.looks().size(); }
@@ -331,8 +334,9 @@ private:
 
   void add_new() {
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
-      if (is_unexplained(c)) {
-        add(c, log_odds_of_new(clusters_[c]));
+      double const most = places_.most_log_odds_at(clusters_[c].points_world);
+      if (is_unexplained(c) && probability_of(most) >= config_.existence.min_probability) {
+        add(c, std::min(most, log_odds_of_new(clusters_[c])));
       }
     }
   }
@@ -367,6 +371,7 @@ private:
   FusedStuff known_;
   Segmentation const& segmentation_;
   KnownPlaces const& places_;
+  ShownPlanes planes_;
   double elapsed_s_;
   FusionConfig const& config_;
   Look now_;

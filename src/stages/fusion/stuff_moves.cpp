@@ -42,15 +42,17 @@ bool moves_often(StuffBelief const& item) {
   return item.moved_share > kMovesOften;
 }
 
-/// Whether it arrived itself (BirthConfig::arrived_probability), a few looks ago.
+/// Whether it arrived itself (BirthConfig::arrived_probability), a few looks ago, or was seen once
+/// alone: nothing says that it stands still.
 bool has_just_come(StuffBelief const& item) {
-  return item.history_count < kFewestLooks && probability_of(item.log_odds) < kHardlyBelieved;
+  return item.history_count == 1 ||
+         (item.history_count < kFewestLooks && probability_of(item.log_odds) < kHardlyBelieved);
 }
 
 /// Whether a thing has left its place to a cluster that has come there: what it should show is
 /// hidden by that, or seen through.
 bool makes_way_for(StuffBelief const& item, StuffLook const& look, FreeCluster const& free) {
-  if (!free.arrived || !(moves_often(item) || has_just_come(item))) {
+  if (!moves_often(item) && !(free.arrived && has_just_come(item))) {
     return false;
   }
   auto const label = static_cast<LabelCode>(kFirstStuff + free.cluster);

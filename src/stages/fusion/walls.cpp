@@ -1,5 +1,6 @@
 #include "stages/fusion/walls.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -58,8 +59,44 @@ Interval trimmed_interval(FloorLine const& line, PointList const& points, double
   return {along_m[trimmed], along_m[along_m.size() - 1 - trimmed]};
 }
 
+/// Each point counts by the variance of its depth.
+PlaneSums sums_of(PointList const& points, Eigen::Vector3d const& camera_world) {
+  constexpr double kNearest_m = 0.002;
+  constexpr double kPerSquareMetre = 0.0015;
+  PlaneSums sums;
+  for (Eigen::Vector3f const& point : points) {
+    Eigen::Vector3d const p = point.cast<double>();
+    double const sigma_m = kNearest_m + kPerSquareMetre * (p - camera_world).squaredNorm();
+    double const weight = 1.0 / (sigma_m * sigma_m);
+    sums.weight += weight;
+    sums.points += weight * p;
+    sums.products += weight * p * p.transpose();
+  }
+  return sums;
+}
+
+PlaneSums operator+(PlaneSums const& a, PlaneSums const& b) {
+  return {a.weight + b.weight, a.points + b.points, a.products + b.products};
+}
+
+/// The plane of least squares. Where the points form a strip narrower than a few hand's breadths,
+/// `observed` decides how it is turned (ridge regression towards it, as the floor's).
+Plane fitted_plane(PlaneSums const& sums, Plane const& observed) {
+  constexpr double kStripM = 0.3;
+  Eigen::Vector3d const mean = sums.points / sums.weight;
+  Eigen::Matrix3d const spread = sums.products / sums.weight - mean * mean.transpose();
+  Eigen::Matrix3d const ridge =
+      kStripM * kStripM *
+      (Eigen::Matrix3d::Identity() - observed.normal * observed.normal.transpose());
+  Eigen::Vector3d const across =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread + ridge).eigenvectors().col(0);
+  Eigen::Vector3d const normal = across.dot(observed.normal) < 0.0 ? -across : across;
+  return {normal, normal.dot(mean)};
+}
+
 /// The observation as a wall of its own, without an id; none where it is no wall.
-std::optional<WallBelief> as_wall(WallObservation const& seen, WallFusionConfig const& config) {
+std::optional<WallBelief> as_wall(WallObservation const& seen, WallFusionConfig const& config,
+                                  std::optional<Eigen::Vector3d> const& camera_world) {
   constexpr double kMinLevelNormal = 1e-3;
   if (!is_finite(seen.plane_world) ||
       !(seen.plane_world.normal.head<2>().norm() > kMinLevelNormal)) {
@@ -71,8 +108,11 @@ std::optional<WallBelief> as_wall(WallObservation const& seen, WallFusionConfig 
   }
   FloorLine const line = floor_line(seen.plane_world, centroid_of(points));
   Interval const interval = trimmed_interval(line, points, config.segment_trim_ratio);
-  points.resize(std::min(points.size(), static_cast<std::size_t>(config.max_points)));
   WallBelief wall;
+  if (camera_world) {
+    wall.sums = sums_of(points, *camera_world);
+  }
+  points.resize(std::min(points.size(), static_cast<std::size_t>(config.max_points)));
   wall.plane_world = seen.plane_world;
   wall.segment_start_m = line.at(interval.begin_m);
   wall.segment_end_m = line.at(interval.end_m);
@@ -109,6 +149,10 @@ WallBelief merged_walls(WallBelief known, WallBelief const& other, WallFusionCon
                                     same_side ? other.plane_world : other.plane_world.flipped(),
                                     other.weight_pixels);
   known.weight_pixels += other.weight_pixels;
+  known.sums = known.sums + other.sums;
+  if (known.sums.weight > 0.0) {
+    known.plane_world = fitted_plane(known.sums, known.plane_world);
+  }
   known.points = grown_points(known.points, *other.points,
                               static_cast<float>(config.point_spacing_m), config.max_points);
   FloorLine const line = floor_line(known.plane_world, centroid_of(*known.points));
@@ -159,13 +203,14 @@ std::vector<WallBelief> without_duplicates(std::vector<WallBelief> walls,
 }  // namespace
 
 FusedWalls fused_walls(FusedWalls known, std::vector<WallObservation> const& seen,
-                       WallFusionConfig const& config) {
+                       WallFusionConfig const& config,
+                       std::optional<Eigen::Vector3d> const& camera_world) {
   std::vector<WallBelief>& walls = known.walls;
   for (WallBelief& wall : walls) {
     wall.label.reset();
   }
   for (WallObservation const& observation : seen) {
-    std::optional<WallBelief> wall = as_wall(observation, config);
+    std::optional<WallBelief> wall = as_wall(observation, config, camera_world);
     if (!wall) {
       continue;
     }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/belief.hpp"
@@ -29,7 +31,13 @@ struct FusedWalls {
 /// centroid; each end of an observation gives up the outermost few, so that a stray point does not
 /// stretch a wall for ever. It only ever grows. Observations without a finite point, and planes
 /// that are not finite or lie level, are passed over.
-[[nodiscard]] FusedWalls fused_walls(FusedWalls known, std::vector<WallObservation> const& seen,
-                                     WallFusionConfig const& config);
+///
+/// With `camera_world`, from where the observations were made, a wall's plane is fitted to all
+/// points that were ever observed of it, by least squares, each by a sensor's noise at its
+/// distance; without, it is the mean of the observed planes by their pixels (T), in which the tilt
+/// of a look at a short piece reaches as far as the wall does.
+[[nodiscard]] FusedWalls fused_walls(
+    FusedWalls known, std::vector<WallObservation> const& seen, WallFusionConfig const& config,
+    std::optional<Eigen::Vector3d> const& camera_world = std::nullopt);
 
 }  // namespace credo

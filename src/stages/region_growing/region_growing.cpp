@@ -32,10 +32,10 @@ void check(Frame const& frame, NormalMap const& normals, Segmentation const& seg
 
 /// With limits for an object that may be off.
 RegionGrowingConfig widened(RegionGrowingConfig config, PoseDistribution const& pose,
-                            ObjectShape const& shape) {
+                            ObjectShape const& shape, Symmetry const& symmetry) {
   double const radius_m =
       shape.bounds().min().cwiseAbs().cwiseMax(shape.bounds().max().cwiseAbs()).norm();
-  double const off_m = largest_deviation_m(pose, radius_m);
+  double const off_m = largest_deviation_m(pose, radius_m, symmetry);
   config.max_distance_m += off_m;
   config.seed_distance_m += off_m;
   config.open_mesh_distance_m += off_m;
@@ -56,7 +56,8 @@ std::vector<Region> regions_of(OrganizedCloud const& cloud, NormalMap const& nor
     PlacedShape const placed{&shape->second,
                              poses_world[i].mean.inverse() * segmentation.T_world_camera};
     regions.push_back(
-        {i, object_pixels(cloud, normals, placed, widened(config, poses_world[i], shape->second))});
+        {i, object_pixels(cloud, normals, placed,
+                          widened(config, poses_world[i], shape->second, object.symmetry))});
   }
   return regions;
 }

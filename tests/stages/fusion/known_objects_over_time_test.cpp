@@ -203,6 +203,26 @@ TEST(KnownObjectsOverTime, WhatIsHiddenMovesAfterASecond) {
   }
 }
 
+// What stands where it is found is that, or a thing of its own, not both.
+TEST(KnownObjectsOverTime, WhereItMayStandNoThingIsAsSurelyBelieved) {
+  Board const in_front{std::nullopt, -0.1, -0.1, 0.3, 0.3, 1.0};
+  BeliefState belief = told({0.0});
+  for (int i = 0; i < 7; ++i) {
+    Segmentation frame = looked_for(view_of(i, {in_front, {kFirstStuff, 0.4}}), FrameIndex{i});
+    refuse(frame, 0.4);
+    belief = fuse(std::move(belief), frame, {}, surfaces());
+    ASSERT_TRUE(belief.objects[0].other_place.has_value()) << i;
+    ASSERT_EQ(belief.stuff.size(), 1U) << i;
+    EXPECT_LE(belief.stuff[0].log_odds, -belief.objects[0].other_place->log_odds + 1e-12) << i;
+  }
+  for (int i = 7; i < 30; ++i) {
+    Segmentation frame = looked_for(view_of(i, {in_front, {kFirstStuff, 0.4}}), FrameIndex{i});
+    refuse(frame, 0.4);
+    belief = fuse(std::move(belief), frame, {}, surfaces());
+  }
+  EXPECT_NEAR(belief.objects[0].pose_world.mean.translation().x(), 0.5, 1e-3);
+}
+
 // A detector that finds it now here, now there, is not believed.
 TEST(KnownObjectsOverTime, FalseAlarmsDoNotMoveIt) {
   BeliefState belief = told({0.0});

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -106,11 +107,41 @@ TEST(KnownPlaces, WhatMayBeOffATheirPlaceIsAllowedFor) {
 TEST(KnownPlaces, FoundOrDisbelievedObjectsExplainNothing) {
   BeliefState belief = with_box(1e-4);
   belief.objects[0].evidence = Evidence::kSeen;
+  EXPECT_TRUE(KnownPlaces(belief, surfaces()).has_object_at({1.0, 0, 0.05}))
+      << "it has moved there: nothing of it has been taken out of the frame";
+  belief.objects[0].label = kFirstObject;
   EXPECT_FALSE(KnownPlaces(belief, surfaces()).has_object_at({1.0, 0, 0.05}));
   belief = with_box(1e-4);
   belief.objects[0].log_odds = -1.0;
   EXPECT_FALSE(KnownPlaces(belief, surfaces()).has_object_at({1.0, 0, 0.05}));
   EXPECT_FALSE(KnownPlaces(with_box(1e-4), {}).has_object_at({1.0, 0, 0.05})) << "no model";
+}
+
+// A pillar: how it is turned about its axis nobody can tell, and it does not matter.
+TEST(KnownPlaces, TurnsThatDoNotShowNeedNotBeKnown) {
+  BeliefState belief = with_box(1e-4);
+  belief.objects[0].pose_world.covariance(5, 5) = 1.0;
+  ObjectModel pillar{"box", std::vector<Solid>{CylinderSolid{0.1, 0.1}}, {}};
+  Eigen::Vector3d const front(1.0, 0, 0.05);
+  EXPECT_FALSE(KnownPlaces(belief, known_surfaces({{"box", pillar}})).has_object_at(front));
+  pillar.symmetry.axis.emplace();
+  EXPECT_TRUE(KnownPlaces(belief, known_surfaces({{"box", pillar}})).has_object_at(front));
+}
+
+TEST(KnownPlaces, WhatStandsWhereAnObjectIsFoundElsewhereMayBeThat) {
+  BeliefState belief = with_box(1e-4);
+  std::vector<Eigen::Vector3f> points = {{1, 0.5F, 0.05F}, {1, 0.52F, 0.05F}, {1, 0.54F, 0.05F}};
+  double const whatever = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(KnownPlaces(belief, surfaces()).most_log_odds_at(points), whatever);
+  belief.objects[0].other_place = OtherPlace{belief.objects[0].pose_world, 0.7, {}};
+  EXPECT_EQ(KnownPlaces(belief, surfaces()).most_log_odds_at(points), whatever) << "beside it";
+  belief.objects[0].other_place->pose_world.mean =
+      Se3(Eigen::Quaterniond::Identity(), {1.1, 0.5, 0});
+  EXPECT_EQ(KnownPlaces(belief, surfaces()).most_log_odds_at(points), -0.7);
+  points.emplace_back(0.8F, 0.5F, 0.05F);
+  EXPECT_EQ(KnownPlaces(belief, surfaces()).most_log_odds_at(points), -0.7) << "three of four";
+  points.emplace_back(0.8F, 0.5F, 0.05F);
+  EXPECT_EQ(KnownPlaces(belief, surfaces()).most_log_odds_at(points), whatever) << "three of five";
 }
 
 std::vector<Eigen::Vector3f> square_at(double z_m) {

@@ -55,6 +55,18 @@ TEST(StuffItems, SliversAreBelievedLessAtFirst) {
   EXPECT_LT(seen_first(0.02), seen_first(0.2) - 1.0);
 }
 
+TEST(StuffItems, OfWhatIsSmallHalfTells) {
+  auto const tells = [](int agreeing, double most_agreeing) {
+    PointCounts look;
+    look[PointState::kAgrees] = agreeing;
+    return finding_of(look, most_agreeing, false).has_value();
+  };
+  EXPECT_TRUE(tells(6, 12.0));
+  EXPECT_FALSE(tells(5, 12.0));
+  EXPECT_TRUE(tells(8, 40.0));
+  EXPECT_FALSE(tells(7, 40.0)) << "8 of what is larger";
+}
+
 // L + n log((1 - k + k .95) / (1 - k + k .05)) up to the bound, k = 1 - exp(-dt / 0.25 s).
 TEST(StuffItems, ASensorThatStandsStillFollowsTheClosedForm) {
   Room room;
@@ -248,6 +260,36 @@ TEST_P(KnownByNow, WhatShowsAsSuchForLongWasThat) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, KnownByNow, testing::Values(kFloor, kFirstWall, kFirstObject + 2));
+
+/// A thing at 1.5 m, and then 50 frames that call it floor, or a wall, in a plane that far away.
+FusedStuff shown_as_known(LabelCode label, double plane_z_m) {
+  FusedStuff stuff;
+  for (int i = 0; i < 60; ++i) {
+    bool const itself = i < 10;
+    Segmentation frame =
+        test::segmentation_of({.boards = {{itself ? kFirst : label}}, .stamp_ns = kFrame_ns * i});
+    Plane const plane{-Eigen::Vector3d::UnitZ(), -plane_z_m};
+    if (!itself && label == kFloor) {
+      frame.floor.emplace().plane_world = plane;
+    } else if (!itself) {
+      frame.walls.emplace_back(WallObservation{label, plane, {}, 1});
+    }
+    stuff = fused_items(std::move(stuff), frame, KnownPlaces({}, {}), 1e-9 * kFrame_ns, {});
+  }
+  return stuff;
+}
+
+// A door in its wall, say, that a frame takes for that.
+TEST(StuffItems, WhatShowsAsAPlaneButStandsBeforeItIsSeen) {
+  for (LabelCode const label : {kFloor, kFirstWall}) {
+    EXPECT_TRUE(shown_as_known(label, 1.5).stuff.empty());
+    EXPECT_TRUE(shown_as_known(label, 1.515).stuff.empty()) << "noise";
+    FusedStuff const before_it = shown_as_known(label, 1.53);
+    ASSERT_EQ(before_it.stuff.size(), 1U);
+    EXPECT_EQ(before_it.stuff[0].evidence, Evidence::kSeen);
+    EXPECT_GT(probability_of(before_it.stuff[0].log_odds), 0.95);
+  }
+}
 
 TEST(StuffItems, WhatNothingExplainsStays) {
   Room room;

@@ -95,6 +95,24 @@ TEST(StuffMoves, WhatWasThereFromTheFirstIsNotLostBehindWhatIsLikeIt) {
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
 }
 
+// One look says nothing of whether it stands still.
+TEST(StuffMoves, WhatWasSeenOnceMayHaveCome) {
+  Room room(test::kWithSight);
+  room.show({.boards = {person(-0.15, 2.0)}});
+  room.show({.boards = {person(-0.15, 1.8)}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
+// Where the frame before could not see: at the edge of the image, for one.
+TEST(StuffMoves, WhatIsOnItsWayIsFollowedToWhereNobodySaw) {
+  Room room(test::kWithSight);
+  approach(room);
+  ASSERT_TRUE(is_on_its_way(room.stuff()[0]));
+  room.show({.x_m = kElsewhere_m});
+  room.show({.boards = {person(-0.15, 1.7)}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
 TEST(StuffMoves, WhatIsFarTooLargeIsAnother) {
   Room room(test::kWithSight);
   room.show({});

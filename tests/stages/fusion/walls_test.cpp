@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -111,6 +112,44 @@ TEST(FusedWalls, WeighPlanesByPixels) {
   EXPECT_NEAR(walls.walls[0].plane_world.offset_m, 1.01, 1e-6);
   EXPECT_NEAR(walls.walls[0].plane_world.normal.norm(), 1.0, 1e-12);
   EXPECT_EQ(walls.walls[0].weight_pixels, 4000.0);
+}
+
+/// A piece of the wall y = 1, seen from 2 m before its middle; the plane laid through it leans, but
+/// its points do not.
+WallObservation leaning_piece(double from_m, double to_m, double slope) {
+  WallObservation piece = wall(2000, {from_m, 1}, {to_m, 1});
+  Eigen::Vector3d const normal = Eigen::Vector3d(slope, -1, 0).normalized();
+  piece.plane_world = {normal, normal.dot(Eigen::Vector3d(0.5 * (from_m + to_m), 1, 0))};
+  return piece;
+}
+
+// A look at a short piece errs in its turn, which the mean of planes carries to the wall's ends.
+TEST(FusedWalls, AreFittedToAllThatWasSeenOfThem) {
+  FusedWalls fitted;
+  FusedWalls averaged;
+  for (int i = 0; i < 4; ++i) {
+    WallObservation const piece = leaning_piece(i, i + 2, 0.02);
+    Eigen::Vector3d const camera(i + 1, -1, 0.5);
+    fitted = fused_walls(std::move(fitted), {piece}, {}, camera);
+    averaged = fused_walls(std::move(averaged), {piece}, {});
+  }
+  ASSERT_THAT(fitted.walls, SizeIs(1));
+  ASSERT_THAT(averaged.walls, SizeIs(1));
+  Eigen::Vector3d const end(5, 1, 0);
+  EXPECT_NEAR(fitted.walls[0].plane_world.signed_distance_m(end), 0.0, 0.005);
+  EXPECT_GT(std::abs(averaged.walls[0].plane_world.signed_distance_m(end)), 0.03);
+  EXPECT_LT(fitted.walls[0].plane_world.normal.y(), 0.0) << "it faces as it did";
+}
+
+// First from 5 m, where depth is off by 4 cm, then from 2 m.
+TEST(FusedWalls, AreFittedByTheNoiseOfWhatWasSeen) {
+  FusedWalls walls;
+  walls = fused_walls(std::move(walls), {wall(2000, {0, 1.04}, {3, 1.04})}, {},
+                      Eigen::Vector3d(1.5, -4, 0.5));
+  walls = fused_walls(std::move(walls), {wall(2000, {0, 1}, {3, 1})}, {},
+                      Eigen::Vector3d(1.5, -1, 0.5));
+  ASSERT_THAT(walls.walls, SizeIs(1));
+  EXPECT_NEAR(walls.walls[0].plane_world.signed_distance_m({1.5, 1, 0.5}), 0.0, 0.004);
 }
 
 TEST(FusedWalls, GiveAnObservationToTheLongestOverlap) {

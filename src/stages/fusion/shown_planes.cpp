@@ -1,0 +1,47 @@
+#include "stages/fusion/shown_planes.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace credo {
+
+ShownPlanes::ShownPlanes(Segmentation const& segmentation) : segmentation_(segmentation) {
+  if (segmentation.floor) {
+    plane_world_[kFloor] = segmentation.floor->plane_world;
+  }
+  for (WallObservation const& wall : segmentation.walls) {
+    plane_world_[wall.label] = wall.plane_world;
+  }
+}
+
+bool ShownPlanes::is_off_plane(std::size_t block) const {
+  constexpr double kNearest_m = 0.015;
+  constexpr double kPerSquareMetre = 0.0015;
+  Sight const& sight = segmentation_.sight;
+  auto const plane = plane_world_.find(sight.labels[block]);
+  if (plane == plane_world_.end()) {
+    return false;
+  }
+  Pixel const pixel = sight.middle_of(sight.labels.pixel(block));
+  CameraIntrinsics const& k = sight.intrinsics;
+  Eigen::Vector3d const ray((pixel.u - k.cx_px) / k.fx_px, (pixel.v - k.cy_px) / k.fy_px, 1.0);
+  Eigen::Vector3d const p_camera = static_cast<double>(sight.depth_m[block]) * ray;
+  double const off_m = plane->second.signed_distance_m(segmentation_.T_world_camera * p_camera);
+  return std::abs(off_m) > kNearest_m + kPerSquareMetre * p_camera.squaredNorm();
+}
+
+bool ShownPlanes::are_what_shows(StuffLook const& look) const {
+  int known = 0;
+  int off = 0;
+  for (PointLook const& point : look.points) {
+    auto const block = static_cast<std::size_t>(point.block);
+    if (point.state == PointState::kAgrees && segmentation_.sight.labels[block] >= kFloor &&
+        !is_stuff(segmentation_.sight.labels[block])) {
+      ++known;
+      off += is_off_plane(block) ? 1 : 0;
+    }
+  }
+  return 2 * off <= known;
+}
+
+}  // namespace credo
