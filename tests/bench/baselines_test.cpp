@@ -42,9 +42,12 @@ TableView view_with(std::string const& model, double height_m) {
 }
 
 /// The best detection is of the thing that is there, and within the middle tier.
-void expect_found(Detector& detector, std::string const& name, double height_m) {
+void expect_found(Detector& detector, std::string const& name, double height_m, int tries = 1) {
   TableView const view = view_with(name, height_m);
-  std::vector<Detection> const found = detector.detect(*view.frame, requests_for(some_models()));
+  std::vector<Detection> found;
+  for (int i = 0; i < tries && found.empty(); ++i) {
+    found = detector.detect(*view.frame, requests_for(some_models()));
+  }
   ASSERT_FALSE(found.empty());
   auto const best = std::ranges::max_element(found, {}, &Detection::score);
   ASSERT_EQ(best->type, name);
@@ -69,8 +72,10 @@ TEST(Baselines, PpfFindsAJug) {
 }
 
 TEST(Baselines, GhvFindsABottle) {
+  // PCL's verification draws by the clock: it accepts the bottle in most runs.
+  constexpr int kTries = 6;
   GhvDetector detector(some_models());
-  expect_found(detector, "water_bottle", kWaterBottle_m);
+  expect_found(detector, "water_bottle", kWaterBottle_m, kTries);
 }
 
 TEST(Baselines, OnlyWhatIsAskedForIsTold) {
