@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "detector/detection_picture.hpp"
+#include "detector/pair_proposals.hpp"
 #include "detector/pose_distance.hpp"
 #include "detector/scene_of_frame.hpp"
 #include "detector/views.hpp"
+#include "sim/household.hpp"
 
 namespace credo::test {
 namespace {
@@ -72,6 +74,51 @@ TEST(GlobalSearch, ACrateAndACanAreFound) {
   expect_found(crate(size_m), T_world_crate);
   expect_found(can(0.04, 0.13), T_world_can);
 }
+
+TEST(GlobalSearch, IsFoundAmongThingsThatComeBefore) {
+  // The segments of the others come first, with more proposals than are looked at closely.
+  std::vector<Placed> things = desk_and_floor();
+  for (int i = 0; i < 12; ++i) {
+    double const x_m = -0.35 + 0.14 * (i % 6);
+    double const y_m = 0.12 + 0.16 * (i / 6);
+    things.push_back(
+        i % 2 == 0 ? Placed{crate({0.09, 0.08, 0.07 + 0.005 * i}), placed_at({x_m, y_m, 0}, i)}
+                   : Placed{can(0.035, 0.09), placed_at({x_m, y_m, 0})});
+  }
+  Se3 const T_world_bracket = placed_at({0.1, -0.15, 0.0}, 0.8);
+  things.push_back({bracket(), T_world_bracket});
+  SearchScene const scene = scene_of(*frame_of(things, before_desk(), {SensorModel::kGaussian}));
+  SearchModel const& model = prepared_bracket();
+  std::vector<Proposal> const proposals = propose_by_pairs(model, bracket_pairs(), scene);
+  CameraPose const truth = camera_pose(before_desk().inverse() * T_world_bracket);
+  auto const near = [&](Proposal const& proposal) {
+    return mean_distance_m(model, proposal.pose, truth) < 0.15 * model.diameter_m;
+  };
+  ASSERT_TRUE(std::none_of(proposals.begin(), proposals.begin() + 600, near));
+  std::vector<PoseCandidate> const found = search_everywhere(model, bracket_pairs(), scene, 5);
+  ASSERT_FALSE(found.empty());
+  EXPECT_LT(mean_distance_m(model, found[0].pose, truth), 0.1 * model.diameter_m);
+}
+
+class MugAnywhere : public ::testing::TestWithParam<double> {};
+
+TEST_P(MugAnywhere, ItsHandleIsFoundToo) {
+  std::vector<ObjectModel> const household = household_models();
+  ObjectModel const mug = *std::ranges::find(household, "mug", &ObjectModel::name);
+  std::vector<Placed> things = desk_and_floor();
+  Se3 const T_world_mug = placed_at({0.0, 0.0, 0.0475}, GetParam());
+  things.push_back({mug, T_world_mug});
+  SearchScene const scene = scene_of(*frame_of(things, before_desk(), {SensorModel::kDisparity}));
+  SearchModel const model = prepare_model(mug);
+  std::vector<PoseCandidate> const found = search_everywhere(model, PairTable(model), scene, 5);
+  ASSERT_FALSE(found.empty());
+  Vector6d const error = boxminus(before_desk().inverse() * T_world_mug, se3(found[0].pose));
+  EXPECT_LT(error.head<3>().norm(), 0.005);
+  EXPECT_LT(error.tail<3>().norm(), 0.15);
+}
+
+// Turned so that the handle shows from before the desk.
+INSTANTIATE_TEST_SUITE_P(Yaws, MugAnywhere, ::testing::Values(-2.8, -2.2, -1.6, -0.9, -0.3, 0.2));
 
 class Picture : public ::testing::Test {
 protected:

@@ -261,5 +261,15 @@ TEST(PairTable, LeavesOutWhatNoViewShowsTogether) {
   }
 }
 
+TEST(PairTable, OfSlenderThingsPointsAreCloser) {
+  ObjectModel const rod{"rod", std::vector<Solid>{CylinderSolid{0.008, 0.3}}, {}};
+  SearchModel const slender = prepare_model(rod);
+  PairTable const of_rod(slender);
+  EXPECT_GE(of_rod.step_m(), 0.0219F * slender.diameter_m);
+  EXPECT_LT(of_rod.step_m(), 0.025F * slender.diameter_m);
+  SearchModel const crate_model = prepare_model(crate({0.3, 0.2, 0.25}));
+  EXPECT_NEAR(PairTable(crate_model).step_m(), 0.05F * crate_model.diameter_m, 1e-5F);
+}
+
 }  // namespace
 }  // namespace credo::test
