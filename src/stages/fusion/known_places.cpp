@@ -62,9 +62,7 @@ void KnownPlaces::add_known(std::vector<Place>& places, KnownSurface const& surf
 }
 
 double KnownPlaces::noise_m(Eigen::Vector3d const& p_world) const {
-  constexpr double kNearest_m = 0.015;
-  constexpr double kPerSquareMetre = 0.0015;
-  return kNearest_m + kPerSquareMetre * (p_world - camera_world_).squaredNorm();
+  return surface_tolerance_m((p_world - camera_world_).squaredNorm());
 }
 
 double KnownPlaces::share_known(std::span<Eigen::Vector3f const> points_world,

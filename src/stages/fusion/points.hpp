@@ -23,6 +23,14 @@ namespace credo {
   return points.empty() ? sum : Eigen::Vector3d(sum / static_cast<double>(points.size()));
 }
 
+/// How far off its surface a point may be measured, at a squared distance from the camera: a
+/// Kinect's noise, and what poses are off.
+[[nodiscard]] inline double surface_tolerance_m(double squared_distance_m2) {
+  constexpr double kNearest_m = 0.015;
+  constexpr double kPerSquareMetre = 0.0015;
+  return kNearest_m + kPerSquareMetre * squared_distance_m2;
+}
+
 /// The union on a grid, at most `max_points`: cells found after that are left out. Where nothing is
 /// new it is the same set, still shared with the beliefs before.
 [[nodiscard]] inline std::shared_ptr<PointList const> grown_points(

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "stages/fusion/points.hpp"
+
 namespace credo {
 
 ShownPlanes::ShownPlanes(Segmentation const& segmentation) : segmentation_(segmentation) {
@@ -15,8 +17,6 @@ ShownPlanes::ShownPlanes(Segmentation const& segmentation) : segmentation_(segme
 }
 
 bool ShownPlanes::is_off_plane(std::size_t block) const {
-  constexpr double kNearest_m = 0.015;
-  constexpr double kPerSquareMetre = 0.0015;
   Sight const& sight = segmentation_.sight;
   auto const plane = plane_world_.find(sight.labels[block]);
   if (plane == plane_world_.end()) {
@@ -27,7 +27,7 @@ bool ShownPlanes::is_off_plane(std::size_t block) const {
   Eigen::Vector3d const ray((pixel.u - k.cx_px) / k.fx_px, (pixel.v - k.cy_px) / k.fy_px, 1.0);
   Eigen::Vector3d const p_camera = static_cast<double>(sight.depth_m[block]) * ray;
   double const off_m = plane->second.signed_distance_m(segmentation_.T_world_camera * p_camera);
-  return std::abs(off_m) > kNearest_m + kPerSquareMetre * p_camera.squaredNorm();
+  return std::abs(off_m) > surface_tolerance_m(p_camera.squaredNorm());
 }
 
 bool ShownPlanes::are_what_shows(StuffLook const& look) const {
