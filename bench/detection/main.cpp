@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "core/detector_config.hpp"
 #include "core/error.hpp"
 #include "geometry/outline.hpp"
 #include "io/image.hpp"
@@ -29,6 +30,7 @@ struct Arguments {
   std::vector<std::string> methods = {"truth"};
   int scenes = 0;
   int threads = 1;
+  double told_from = BpaConfig{}.min_probability;
   std::filesystem::path json;
   std::filesystem::path pictures;
   bool freeze = false;
@@ -145,7 +147,8 @@ void compare(Arguments const& arguments) {
     throw InputError("--set " + arguments.set +
                      ": there are kinect, clutter, tuning-kinect and tuning-clutter");
   }
-  std::vector<Method> const methods = chosen(all_methods(bench.views), arguments.methods);
+  std::vector<Method> const methods =
+      chosen(all_methods(bench.views, arguments.told_from), arguments.methods);
   std::vector<TabletopScene> scenes = frozen_scenes(*set);
   if (arguments.scenes > 0) {
     scenes.resize(std::min(scenes.size(), static_cast<std::size_t>(arguments.scenes)));
@@ -178,6 +181,10 @@ int run_program(int argc, char** argv) {
   app.add_option("--method", arguments.methods, "one or more, in this order");
   app.add_option("--scenes", arguments.scenes, "only the first N")->check(CLI::PositiveNumber);
   app.add_option("--threads", arguments.threads, "worker threads")->check(CLI::PositiveNumber);
+  app.add_option("--told-from", arguments.told_from,
+                 "least probability that bpa tells; under its default shows what it finds at the "
+                 "precision that methods are compared at")
+      ->check(CLI::Range(0.0, 1.0));
   app.add_option("--json", arguments.json, "all figures, as a file");
   app.add_option("--pictures", arguments.pictures, "a folder for a picture of each frame");
   app.add_flag("--freeze", arguments.freeze, "make the files of all sets anew, and nothing else");

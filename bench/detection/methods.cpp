@@ -18,16 +18,17 @@ std::unique_ptr<Detector> made(std::vector<ObjectModel> const& models) {
 
 }  // namespace
 
-std::vector<Method> all_methods(std::vector<TableView> const& views) {
+std::vector<Method> all_methods(std::vector<TableView> const& views, double told_from) {
   return {
       {"bpa",
-       [](std::vector<ObjectModel> const& models) -> std::unique_ptr<Detector> {
+       [told_from](std::vector<ObjectModel> const& models) -> std::unique_ptr<Detector> {
          ObjectModels named;
          for (ObjectModel const& model : models) {
            named.emplace(model.name, model);
          }
          BpaConfig config;
          config.search = ObjectSearch::kGlobal;
+         config.min_probability = told_from;
          return std::make_unique<BpaDetector>(named, config);
        }},
       {"truth", [&views](auto const&) { return std::make_unique<TruthDetector>(views); }},

@@ -17,7 +17,9 @@ struct Method {
   std::function<std::unique_ptr<Detector>(std::vector<ObjectModel> const&)> make;
 };
 
-/// All there are. The views must outlive the methods (one of them is the truth).
-[[nodiscard]] std::vector<Method> all_methods(std::vector<TableView> const& views);
+/// All there are. The views must outlive the methods (one of them is the truth). `bpa` tells what
+/// is likelier than `told_from`: 0.25 is its default; what it finds at a precision takes less.
+[[nodiscard]] std::vector<Method> all_methods(std::vector<TableView> const& views,
+                                              double told_from);
 
 }  // namespace credo

@@ -52,25 +52,33 @@ nlohmann::json json_of(NeesScores const& nees) {
           {"coverage_95", nees.coverage}};
 }
 
+nlohmann::json json_of(TierScores const& tier) {
+  nlohmann::json bands = nlohmann::json::array();
+  for (std::size_t b = 0; b < kVisibilityBands.size(); ++b) {
+    bands.push_back({{"visible", {kVisibilityBands[b].low, kVisibilityBands[b].high}},
+                     {"truths", tier.band_truths[b]},
+                     {"recall", json_of(tier.band_recall[b])}});
+  }
+  return {{"right", tier.right},
+          {"detections", tier.detections},
+          {"truths", tier.truths},
+          {"precision", json_of(tier.precision)},
+          {"recall", json_of(tier.recall)},
+          {"f1", json_of(tier.f1)},
+          {"bands", bands}};
+}
+
 nlohmann::json json_of(MethodResult const& result) {
   nlohmann::json tiers = nlohmann::json::array();
   for (std::size_t i = 0; i < kPoseTiers.size(); ++i) {
-    TierScores const& tier = result.scores.tiers[i];
-    nlohmann::json bands = nlohmann::json::array();
-    for (std::size_t b = 0; b < kVisibilityBands.size(); ++b) {
-      bands.push_back({{"visible", {kVisibilityBands[b].low, kVisibilityBands[b].high}},
-                       {"truths", tier.band_truths[b]},
-                       {"recall", json_of(tier.band_recall[b])}});
+    nlohmann::json tier = json_of(result.scores.tiers[i]);
+    tier["translation_m"] = kPoseTiers[i].translation_m;
+    tier["rotation_deg"] = kPoseTiers[i].rotation_deg;
+    if (auto const& at = result.scores.at_precision[i]) {
+      tier["at_precision"] = json_of(at->scores);
+      tier["at_precision"]["from_score"] = at->from_score;
     }
-    tiers.push_back({{"translation_m", kPoseTiers[i].translation_m},
-                     {"rotation_deg", kPoseTiers[i].rotation_deg},
-                     {"right", tier.right},
-                     {"detections", tier.detections},
-                     {"truths", tier.truths},
-                     {"precision", json_of(tier.precision)},
-                     {"recall", json_of(tier.recall)},
-                     {"f1", json_of(tier.f1)},
-                     {"bands", bands}});
+    tiers.push_back(tier);
   }
   return {{"method", result.method},
           {"tiers", tiers},
@@ -81,6 +89,16 @@ nlohmann::json json_of(MethodResult const& result) {
           {"making_s", result.making_s},
           {"wall_s", result.wall_s},
           {"cpu_s", result.cpu_s}};
+}
+
+std::string row(std::string const& method, std::string const& which, TierScores const& tier) {
+  std::string row = "| " + method + " | " + which + " | " + cell(tier.precision) + " | " +
+                    cell(tier.recall) + " | " + cell(tier.f1) + " |";
+  for (std::size_t b = 0; b < kVisibilityBands.size(); ++b) {
+    row += " " + percent(tier.band_recall[b].value) + " of " + std::to_string(tier.band_truths[b]) +
+           " |";
+  }
+  return row + "\n";
 }
 
 }  // namespace
@@ -94,14 +112,13 @@ std::string markdown(RunFacts const& facts, std::vector<MethodResult> const& res
                      "to 70 % | 15 to 40 % |\n|---|---|---|---|---|---|---|---|\n";
   for (MethodResult const& result : results) {
     for (std::size_t i = 0; i < kPoseTiers.size(); ++i) {
-      TierScores const& tier = result.scores.tiers[i];
-      page += "| " + result.method + " | " + tier_name(kPoseTiers[i]) + " | " +
-              cell(tier.precision) + " | " + cell(tier.recall) + " | " + cell(tier.f1) + " |";
-      for (std::size_t b = 0; b < kVisibilityBands.size(); ++b) {
-        page += " " + percent(tier.band_recall[b].value) + " of " +
-                std::to_string(tier.band_truths[b]) + " |";
+      page += row(result.method, tier_name(kPoseTiers[i]), result.scores.tiers[i]);
+      if (auto const& at = result.scores.at_precision[i]) {
+        page += row(result.method,
+                    tier_name(kPoseTiers[i]) + text(", scores from %.3f", at->from_score) +
+                        text(" (precision %g)", kComparedAtPrecision),
+                    at->scores);
       }
-      page += "\n";
     }
   }
   page +=

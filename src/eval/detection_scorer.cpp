@@ -4,11 +4,13 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include "eval/nees_bounds.hpp"
 #include "geometry/pose_fusion.hpp"
@@ -159,29 +161,20 @@ void DetectionScorer::add(std::vector<Detection> const& detections,
     static_cast<void>(model(detection.type));
   }
   match(detections, truths);
-  SceneCounts scene{};
-  for (std::size_t tier = 0; tier < kPoseTiers.size(); ++tier) {
-    Counts& counts = scene[tier];
-    for (TrueInstance const& truth : truths) {
-      counts.truths += truth.visible_fraction >= kLeastVisible ? 1 : 0;
-      for (std::size_t b = 0; b < kVisibilityBands.size(); ++b) {
-        counts.band_truths[b] += in_band(truth.visible_fraction, kVisibilityBands[b]) ? 1 : 0;
-      }
-    }
-    for (auto const& matched : matches_) {
-      if (!matched[tier]) {
-        ++counts.detections;
-        continue;
-      }
-      double const visible = truths[*matched[tier]].visible_fraction;
-      counts.detections += visible >= kLeastVisible ? 1 : 0;
-      counts.right += visible >= kLeastVisible ? 1 : 0;
-      for (std::size_t b = 0; b < kVisibilityBands.size(); ++b) {
-        counts.band_right[b] += in_band(visible, kVisibilityBands[b]) ? 1 : 0;
-      }
-    }
+  Scene scene;
+  for (TrueInstance const& truth : truths) {
+    scene.truths_visible_fraction.push_back(truth.visible_fraction);
   }
-  scenes_.push_back(scene);
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    Judged judged{detections[d].score, {}};
+    for (std::size_t tier = 0; tier < kPoseTiers.size(); ++tier) {
+      if (auto const t = matches_[d][tier]) {
+        judged.visible_fraction[tier] = truths[*t].visible_fraction;
+      }
+    }
+    scene.detections.push_back(judged);
+  }
+  scenes_.push_back(std::move(scene));
   add_distances(detections, truths);
   for (std::size_t d = 0; d < detections.size(); ++d) {
     if (auto const t = matches_[d].front()) {
@@ -193,47 +186,106 @@ void DetectionScorer::add(std::vector<Detection> const& detections,
   }
 }
 
-TierScores DetectionScorer::tier_scores(std::size_t tier) const {
+DetectionScorer::Counts DetectionScorer::counts_of(Scene const& scene, std::size_t tier,
+                                                   double from_score) {
+  Counts counts;
+  auto const count_bands = [](double visible, auto& bands) {
+    for (std::size_t b = 0; b < kVisibilityBands.size(); ++b) {
+      bands[b] += in_band(visible, kVisibilityBands[b]) ? 1 : 0;
+    }
+  };
+  for (double const visible : scene.truths_visible_fraction) {
+    counts.truths += visible >= kLeastVisible ? 1 : 0;
+    count_bands(visible, counts.band_truths);
+  }
+  for (Judged const& detection : scene.detections) {
+    if (detection.score < from_score) {
+      continue;
+    }
+    auto const& visible = detection.visible_fraction[tier];
+    if (!visible) {
+      ++counts.detections;
+      continue;
+    }
+    counts.detections += *visible >= kLeastVisible ? 1 : 0;
+    counts.right += *visible >= kLeastVisible ? 1 : 0;
+    count_bands(*visible, counts.band_right);
+  }
+  return counts;
+}
+
+TierScores DetectionScorer::tier_scores(std::size_t tier, double from_score) const {
   using Drawn = std::vector<std::size_t>;
-  auto const sum = [&](Drawn const& drawn, auto const& field) {
+  std::vector<Counts> scenes;
+  scenes.reserve(scenes_.size());
+  for (Scene const& scene : scenes_) {
+    scenes.push_back(counts_of(scene, tier, from_score));
+  }
+  auto const sum = [&scenes](Drawn const& drawn, auto const& field) {
     std::size_t total = 0;
     for (std::size_t const scene : drawn) {
-      total += field(scenes_[scene][tier]);
+      total += field(scenes[scene]);
     }
     return total;
   };
   auto const right = [](Counts const& c) { return c.right; };
   auto const detected = [](Counts const& c) { return c.detections; };
   auto const truths = [](Counts const& c) { return c.truths; };
-  Drawn all(scenes_.size());
+  Drawn all(scenes.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   TierScores scores;
   scores.right = sum(all, right);
   scores.detections = sum(all, detected);
   scores.truths = sum(all, truths);
   scores.precision = resampled(
-      scenes_, [&](Drawn const& drawn) { return share(sum(drawn, right), sum(drawn, detected)); });
+      scenes, [&](Drawn const& drawn) { return share(sum(drawn, right), sum(drawn, detected)); });
   scores.recall = resampled(
-      scenes_, [&](Drawn const& drawn) { return share(sum(drawn, right), sum(drawn, truths)); });
+      scenes, [&](Drawn const& drawn) { return share(sum(drawn, right), sum(drawn, truths)); });
   // Twice the product over the sum of both shares, also where nothing was detected.
-  scores.f1 = resampled(scenes_, [&](Drawn const& drawn) {
+  scores.f1 = resampled(scenes, [&](Drawn const& drawn) {
     return share(2 * sum(drawn, right), sum(drawn, detected) + sum(drawn, truths));
   });
   for (std::size_t b = 0; b < kVisibilityBands.size(); ++b) {
     auto const band_right = [b](Counts const& c) { return c.band_right[b]; };
     auto const band_truths = [b](Counts const& c) { return c.band_truths[b]; };
     scores.band_truths[b] = sum(all, band_truths);
-    scores.band_recall[b] = resampled(scenes_, [&](Drawn const& drawn) {
+    scores.band_recall[b] = resampled(scenes, [&](Drawn const& drawn) {
       return share(sum(drawn, band_right), sum(drawn, band_truths));
     });
   }
   return scores;
 }
 
+std::optional<ScoresFrom> DetectionScorer::scores_at_precision(std::size_t tier) const {
+  std::vector<Judged> detections;
+  for (Scene const& scene : scenes_) {
+    detections.insert(detections.end(), scene.detections.begin(), scene.detections.end());
+  }
+  std::ranges::stable_sort(detections, std::greater{}, &Judged::score);
+  std::optional<double> from_score;
+  std::size_t right = 0;
+  std::size_t counted = 0;
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    auto const& visible = detections[d].visible_fraction[tier];
+    counted += !visible || *visible >= kLeastVisible ? 1 : 0;
+    right += visible && *visible >= kLeastVisible ? 1 : 0;
+    bool const score_ends =
+        d + 1 == detections.size() || detections[d + 1].score < detections[d].score;
+    if (score_ends && counted > 0 && share(right, counted) >= kComparedAtPrecision) {
+      from_score = detections[d].score;
+    }
+  }
+  if (!from_score) {
+    return std::nullopt;
+  }
+  return ScoresFrom{*from_score, tier_scores(tier, *from_score)};
+}
+
 DetectionScores DetectionScorer::scores() const {
   DetectionScores scores;
   for (std::size_t tier = 0; tier < kPoseTiers.size(); ++tier) {
-    scores.tiers[tier] = tier_scores(tier);
+    scores.tiers[tier] = tier_scores(tier, -std::numeric_limits<double>::infinity());
+    scores.at_precision[tier] = scores_at_precision(tier);
   }
   scores.add_recall = share(add_right_, scores.tiers.front().truths);
   scores.add_s_recall = share(add_s_right_, scores.tiers.front().truths);

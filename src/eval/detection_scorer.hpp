@@ -73,8 +73,21 @@ struct NeesScores {
   double coverage = 0.0;
 };
 
+/// Detectors are compared at this precision, too: what one finds depends on what it dares to tell.
+inline constexpr double kComparedAtPrecision = 0.95;
+
+/// Without detections whose score is under `from_score`.
+struct ScoresFrom {
+  double from_score = 0.0;
+  TierScores scores;
+};
+
 struct DetectionScores {
   std::array<TierScores, kPoseTiers.size()> tiers;
+  /// From the lowest score on from which on the precision is at least kComparedAtPrecision; none
+  /// where no score has it. Intervals are those with this score, drawn scenes or not. A detector
+  /// whose precision is higher with all it tells might have found more, had it told more.
+  std::array<std::optional<ScoresFrom>, kPoseTiers.size()> at_precision;
   /// Share of the true objects of which some detection's ADD (ADD-S for a model with symmetry) is
   /// under a tenth of the diameter; the same with ADD-S for all.
   double add_recall = 0.0;
@@ -101,6 +114,15 @@ public:
   [[nodiscard]] Matches const& last_matches() const { return matches_; }
 
 private:
+  /// How much is seen, by tier, of what a detection is right about.
+  struct Judged {
+    double score = 0.0;
+    std::array<std::optional<double>, kPoseTiers.size()> visible_fraction;
+  };
+  struct Scene {
+    std::vector<Judged> detections;
+    std::vector<double> truths_visible_fraction;
+  };
   struct Counts {
     std::size_t right = 0;
     std::size_t detections = 0;
@@ -108,16 +130,17 @@ private:
     std::array<std::size_t, kVisibilityBands.size()> band_right{};
     std::array<std::size_t, kVisibilityBands.size()> band_truths{};
   };
-  using SceneCounts = std::array<Counts, kPoseTiers.size()>;
 
   [[nodiscard]] TrueModel const& model(std::string const& name) const;
   void match(std::vector<Detection> const& detections, std::vector<TrueInstance> const& truths);
   void add_distances(std::vector<Detection> const& detections,
                      std::vector<TrueInstance> const& truths);
-  [[nodiscard]] TierScores tier_scores(std::size_t tier) const;
+  [[nodiscard]] static Counts counts_of(Scene const& scene, std::size_t tier, double from_score);
+  [[nodiscard]] TierScores tier_scores(std::size_t tier, double from_score) const;
+  [[nodiscard]] std::optional<ScoresFrom> scores_at_precision(std::size_t tier) const;
 
   TrueModels const& models_;
-  std::vector<SceneCounts> scenes_;
+  std::vector<Scene> scenes_;
   Matches matches_;
   std::size_t add_right_ = 0;
   std::size_t add_s_right_ = 0;

@@ -4,8 +4,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "core/solid.hpp"
 
@@ -63,6 +66,66 @@ TEST(DetectionScorer, PrecisionRecallAndF1ByHand) {
   EXPECT_DOUBLE_EQ(tier.precision.value, 1.0 / 3.0);
   EXPECT_DOUBLE_EQ(tier.recall.value, 0.5);
   EXPECT_DOUBLE_EQ(tier.f1.value, 0.4);
+}
+
+/// Detections of a scene with a chance of being right that grows with their score.
+std::vector<Detection> guesses(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> any(0.0, 1.0);
+  std::vector<Detection> told;
+  for (int place = 0; place < 12; ++place) {
+    double const score = std::round(20.0 * any(random)) / 20.0;
+    bool const right = any(random) < 0.75 + 0.5 * score;
+    told.push_back(detection("box", pose(right ? place : place + 0.3), score));
+  }
+  return told;
+}
+
+TEST(DetectionScorer, WhatIsFoundAtAPrecisionIsWhatIsFoundWithoutLowerScores) {
+  TrueModels const known = models();
+  std::mt19937_64 random(7);
+  int from_the_middle = 0;
+  for (int round = 0; round < 20; ++round) {
+    std::vector<TrueInstance> truths;
+    for (int place = 0; place < 12; ++place) {
+      truths.push_back({"box", pose(place), place % 4 == 0 ? 0.05 : 0.25 * (place % 4)});
+    }
+    std::vector<std::vector<Detection>> const scenes = {guesses(random), guesses(random)};
+    auto const scored_from = [&](double from_score) {
+      DetectionScorer scorer(known);
+      for (std::vector<Detection> told : scenes) {
+        std::erase_if(told, [&](Detection const& d) { return d.score < from_score; });
+        scorer.add(told, truths);
+      }
+      return scorer.scores();
+    };
+    // The obvious way: all thresholds, from above.
+    std::optional<TierScores> expected;
+    for (int step = 20; step >= 0; --step) {
+      TierScores const tier = scored_from(step / 20.0).tiers[1];
+      if (tier.detections > 0 && tier.precision.value >= kComparedAtPrecision) {
+        expected = tier;
+      }
+    }
+    auto const at = scored_from(0.0).at_precision[1];
+    ASSERT_EQ(at.has_value(), expected.has_value());
+    if (at) {
+      from_the_middle += at->from_score > 0.0 ? 1 : 0;
+      EXPECT_EQ(at->scores.right, expected->right);
+      EXPECT_EQ(at->scores.detections, expected->detections);
+      EXPECT_EQ(at->scores.recall.low, expected->recall.low);
+      EXPECT_EQ(at->scores.band_recall[0].value, expected->band_recall[0].value);
+      EXPECT_EQ(at->scores.band_recall[1].value, expected->band_recall[1].value);
+    }
+  }
+  EXPECT_GT(from_the_middle, 5) << "or the scenes tell nothing";
+}
+
+TEST(DetectionScorer, WhereNoScoreIsPreciseNothingIsFoundAtAPrecision) {
+  TrueModels const known = models();
+  DetectionScorer scorer(known);
+  EXPECT_FALSE(scorer.scores().at_precision[0]) << "of no scene";
+  scorer.add({detection("box", pose(1), 0.9), detection("box", pose(0), 0.8)}, {{"box", pose(0)}});
+  EXPECT_FALSE(scorer.scores().at_precision[0]) << "half of them are wrong, and the best";
 }
 
 TEST(DetectionScorer, WhatIsHardlySeenCountsNeitherWay) {
