@@ -9,7 +9,7 @@
 namespace credo {
 
 /// Raised with every change to what a prepared model holds, or to how it is made.
-inline constexpr int kPreparationVersion = 2;
+inline constexpr int kPreparationVersion = 3;
 
 /// All that preparing a model takes time for, to the bit: not its name and its symmetry, which the
 /// model tells by itself.

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
+
+#include "geometry/triangle_pixels.hpp"
 
 namespace credo {
 namespace {
@@ -69,60 +72,79 @@ Bounds bounds_of(std::vector<Projected> const& projected) {
   return bounds;
 }
 
-/// Twice the area of the triangle a, b, (u, v): affine in u and v.
-struct EdgeFunction {
-  EdgeFunction(Projected const& a, Projected const& b)
-      : per_u(a.v_px - b.v_px),
-        per_v(b.u_px - a.u_px),
-        at_origin(-a.u_px * per_u - a.v_px * per_v) {}
-  [[nodiscard]] float at(float u, float v) const { return u * per_u + v * per_v + at_origin; }
+/// Inverse depths in rows that triangles may be drawn into.
+class NearestSurface {
+public:
+  NearestSurface(Pixel corner, int width_px, int height_px)
+      : corner_(corner),
+        width_px_(width_px),
+        height_px_(height_px),
+        stride_(static_cast<std::size_t>(width_px) + kTrianglePadding),
+        per_m_(stride_ * static_cast<std::size_t>(height_px), 0.0F) {}
 
-  float per_u;
-  float per_v;
-  float at_origin;
+  /// The three `per_m` must be positive.
+  void draw(Projected const& a, Projected const& b, Projected const& c);
+  [[nodiscard]] DepthPatch patch() const;
+
+private:
+  Pixel corner_;
+  int width_px_;
+  int height_px_;
+  std::size_t stride_;
+  std::vector<float> per_m_;
 };
 
-/// A pixel on the edge of two triangles is drawn by one of them at least, whatever is rounded.
-constexpr float kOnEdge = -1e-5F;
-
-/// Draws one triangle, whose `per_m` are all positive.
-void draw(Projected const& a, Projected const& b, Projected const& c, DepthPatch& patch,
-          Grid<float>& nearest_per_m) {
+void NearestSurface::draw(Projected const& a, Projected const& b, Projected const& c) {
   float const area = (b.u_px - a.u_px) * (c.v_px - a.v_px) - (c.u_px - a.u_px) * (b.v_px - a.v_px);
   if (area == 0.0F) {
     return;
   }
-  int const du = patch.corner.u;
-  int const dv = patch.corner.v;
-  PixelSpan const us =
-      span_of(std::min({a.u_px, b.u_px, c.u_px}) - static_cast<float>(du),
-              std::max({a.u_px, b.u_px, c.u_px}) - static_cast<float>(du), nearest_per_m.width());
-  PixelSpan const vs =
-      span_of(std::min({a.v_px, b.v_px, c.v_px}) - static_cast<float>(dv),
-              std::max({a.v_px, b.v_px, c.v_px}) - static_cast<float>(dv), nearest_per_m.height());
-  if (us.last < us.first) {
+  auto const du = static_cast<float>(corner_.u);
+  auto const dv = static_cast<float>(corner_.v);
+  PixelSpan const us = span_of(std::min({a.u_px, b.u_px, c.u_px}) - du,
+                               std::max({a.u_px, b.u_px, c.u_px}) - du, width_px_);
+  PixelSpan const vs = span_of(std::min({a.v_px, b.v_px, c.v_px}) - dv,
+                               std::max({a.v_px, b.v_px, c.v_px}) - dv, height_px_);
+  if (us.last < us.first || vs.last < vs.first) {
     return;
   }
+  float const u = du + static_cast<float>(us.first);
+  float const v = dv + static_cast<float>(vs.first);
   float const inverse = 1.0F / area;
-  EdgeFunction const of_c(a, b);
-  EdgeFunction const of_a(b, c);
-  EdgeFunction const of_b(c, a);
-  for (int v = vs.first; v <= vs.last; ++v) {
-    auto const image_v = static_cast<float>(v + dv);
-    auto const image_u = static_cast<float>(us.first + du);
-    float wa = of_a.at(image_u, image_v) * inverse;
-    float wb = of_b.at(image_u, image_v) * inverse;
-    float wc = of_c.at(image_u, image_v) * inverse;
-    float* row = nearest_per_m.row(v).data();
-    for (int u = us.first; u <= us.last; ++u) {
-      if (wa >= kOnEdge && wb >= kOnEdge && wc >= kOnEdge) {
-        row[u] = std::max(row[u], wa * a.per_m + wb * b.per_m + wc * c.per_m);
-      }
-      wa += of_a.per_u * inverse;
-      wb += of_b.per_u * inverse;
-      wc += of_c.per_u * inverse;
+  // Of the triangle p, q, (u, v) in that of a, b, c.
+  auto const weight = [&](Projected const& p, Projected const& q) {
+    float const per_u = (p.v_px - q.v_px) * inverse;
+    float const per_v = (q.u_px - p.u_px) * inverse;
+    return AffineInImage{(u - p.u_px) * per_u + (v - p.v_px) * per_v, per_u, per_v};
+  };
+  AffineInImage const of_a = weight(b, c);
+  AffineInImage const of_b = weight(c, a);
+  AffineInImage const of_c = weight(a, b);
+  auto const per_m = [&](float AffineInImage::*part) {
+    return of_a.*part * a.per_m + of_b.*part * b.per_m + of_c.*part * c.per_m;
+  };
+  TriangleInImage const triangle{us.last - us.first + 1,
+                                 vs.last - vs.first + 1,
+                                 of_a,
+                                 of_b,
+                                 of_c,
+                                 {per_m(&AffineInImage::at_corner), per_m(&AffineInImage::per_u),
+                                  per_m(&AffineInImage::per_v)}};
+  float* const top_left = per_m_.data() + static_cast<std::size_t>(vs.first) * stride_ +
+                          static_cast<std::size_t>(us.first);
+  draw_triangle(triangle, top_left, stride_);
+}
+
+DepthPatch NearestSurface::patch() const {
+  DepthPatch patch{corner_, Grid<float>(width_px_, height_px_)};
+  for (int v = 0; v < height_px_; ++v) {
+    float const* const per_m = per_m_.data() + static_cast<std::size_t>(v) * stride_;
+    auto const row = patch.depth_m.row(v);
+    for (std::size_t u = 0; u < row.size(); ++u) {
+      row[u] = per_m[u] > 0.0F ? 1.0F / per_m[u] : kNoSurface_m;
     }
   }
+  return patch;
 }
 
 }  // namespace
@@ -153,22 +175,16 @@ DepthPatch render_depth(std::span<Eigen::Vector3f const> vertices_camera,
   }
   PixelSpan const us = span_of(bounds.low_u, bounds.high_u, size.width_px);
   PixelSpan const vs = span_of(bounds.low_v, bounds.high_v, size.height_px);
-  DepthPatch patch;
   if (us.last < us.first || vs.last < vs.first) {
-    return patch;
+    return {};
   }
-  patch.corner = {us.first, vs.first};
-  Grid<float> nearest_per_m(us.last - us.first + 1, vs.last - vs.first + 1, 0.0F);
+  NearestSurface nearest({us.first, vs.first}, us.last - us.first + 1, vs.last - vs.first + 1);
   for (auto const& [a, b, c] : triangles) {
     if (projected[a].per_m > 0.0F && projected[b].per_m > 0.0F && projected[c].per_m > 0.0F) {
-      draw(projected[a], projected[b], projected[c], patch, nearest_per_m);
+      nearest.draw(projected[a], projected[b], projected[c]);
     }
   }
-  patch.depth_m = std::move(nearest_per_m);
-  for (float& value : patch.depth_m) {
-    value = value > 0.0F ? 1.0F / value : kNoSurface_m;
-  }
-  return patch;
+  return nearest.patch();
 }
 
 }  // namespace credo
