@@ -1,5 +1,6 @@
 #include "detector/bpa_detector.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <utility>
@@ -17,6 +18,8 @@ constexpr std::size_t kMaxTracked = 2;
 /// How well a pose found a few frames ago is known now: by what the camera's source strays.
 constexpr double kFollowed_m = 0.010;
 constexpr double kFollowed_rad = 0.03;
+/// What an object that is so likely explains, others are not looked for on.
+constexpr float kKnown = 0.5F;
 /// An object is hidden where so much of it is, and no more than that is seen through.
 constexpr float kHiddenShare = 0.6F;
 constexpr float kSeenThroughShare = 0.15F;
@@ -115,8 +118,11 @@ std::vector<ObjectAnswer> BpaDetector::answers(Frame const& frame,
   if (is_due(frame)) {
     collect(frame, *scene, requests, objects);
   }
+  if (config_.search == ObjectSearch::kGlobal) {
+    look_again(requests, *scene, objects);
+  }
   std::vector<std::optional<PoseCandidate>> found = choose_jointly(objects, *scene, least);
-  start_job(frame, scene, missing(requests, objects, found));
+  start_job(frame, scene, missing(requests, objects, found), found);
   if (config_.global_lag_frames == 0 && is_due(frame)) {
     collect(frame, *scene, requests, objects);
     found = choose_jointly(objects, *scene, least);
@@ -151,6 +157,23 @@ std::vector<PoseCandidate> BpaDetector::candidates_of(DetectionRequest const& re
                      seed_of(config_, frame, request.object_id), kMaxTracked);
 }
 
+void BpaDetector::look_again(std::vector<DetectionRequest> const& requests,
+                             SearchScene const& scene,
+                             std::vector<ObjectCandidates>& objects) const {
+  auto const known = choose_jointly(objects, scene, kKnown);
+  if (std::ranges::none_of(known, [](auto const& pose) { return pose.has_value(); })) {
+    return;
+  }
+  ClaimedPixels const explained = explained_by(known, scene, kKnown);
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    if (objects[i].model != nullptr && !known[i]) {
+      objects[i].candidates =
+          search_again(*objects[i].model, models_.at(requests[i].type)->pairs, scene,
+                       std::move(objects[i].candidates), explained, kMaxCandidates);
+    }
+  }
+}
+
 bool BpaDetector::is_due(Frame const& frame) const {
   if (!job_) {
     return false;
@@ -183,19 +206,21 @@ void BpaDetector::collect(Frame const& frame, SearchScene const& scene,
 }
 
 void BpaDetector::start_job(Frame const& frame, ScenePtr const& scene,
-                            std::vector<DetectionRequest> const& missing) {
+                            std::vector<DetectionRequest> const& missing,
+                            std::vector<std::optional<PoseCandidate>> const& found) {
   bool const turn = number(frame.index) % config_.global_every_frames == 0;
   if (config_.search != ObjectSearch::kBoth || job_ || !turn || missing.empty()) {
     return;
   }
-  auto search = [scene, missing, models = models_] {
-    std::map<std::string, std::vector<PoseCandidate>> found;
+  auto search = [scene, missing, models = models_,
+                 explained = explained_by(found, *scene, kKnown)] {
+    std::map<std::string, std::vector<PoseCandidate>> candidates;
     for (DetectionRequest const& request : missing) {
       PreparedModel const& model = *models.at(request.type);
-      found[request.object_id] =
-          search_everywhere(model.model, model.pairs, *scene, kMaxCandidates);
+      candidates[request.object_id] =
+          search_everywhere(model.model, model.pairs, *scene, kMaxCandidates, explained);
     }
-    return found;
+    return candidates;
   };
   job_ = Job{frame.index, frame.T_source_camera, std::async(std::launch::async, search)};
 }

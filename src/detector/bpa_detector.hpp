@@ -75,13 +75,17 @@ private:
   [[nodiscard]] std::vector<PoseCandidate> candidates_of(DetectionRequest const& request,
                                                          SearchScene const& scene,
                                                          Frame const& frame) const;
+  /// For what is not found, once others are.
+  void look_again(std::vector<DetectionRequest> const& requests, SearchScene const& scene,
+                  std::vector<ObjectCandidates>& objects) const;
   [[nodiscard]] bool is_due(Frame const& frame) const;
   /// Adds what the job has found, followed to this frame.
   void collect(Frame const& frame, SearchScene const& scene,
                std::vector<DetectionRequest> const& requests,
                std::vector<ObjectCandidates>& objects);
   void start_job(Frame const& frame, ScenePtr const& scene,
-                 std::vector<DetectionRequest> const& missing);
+                 std::vector<DetectionRequest> const& missing,
+                 std::vector<std::optional<PoseCandidate>> const& found);
 
   PreparedModels models_;
   BpaConfig config_;

@@ -149,30 +149,41 @@ void compare(std::vector<PoseCandidate>& candidates, SearchModel const& model) {
   }
 }
 
-}  // namespace
+/// Whether a pose explains what is explained already, for more than half.
+bool is_in_place_of_another(PoseCandidate const& candidate, ClaimedPixels const& explained) {
+  if (explained.empty()) {
+    return false;
+  }
+  auto const& own = candidate.verification.explained_px;
+  auto const shared =
+      std::ranges::count_if(own, [&](std::uint32_t pixel) { return explained[pixel] != 0; });
+  return 2 * static_cast<std::size_t>(shared) > own.size();
+}
 
-std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable const& pairs,
-                                             SearchScene const& scene, std::size_t max_candidates) {
+/// Each step of the funnel takes a share of what it would.
+std::vector<PoseCandidate> search(SearchModel const& model, PairTable const& pairs,
+                                  SearchScene const& scene, ClaimedPixels const& explained,
+                                  std::size_t share, std::size_t max_candidates) {
   PoseScore const score(model, scene);
   PoseDistance const distance(model);
   std::mt19937_64 random(kDrawSeed);
   std::vector<Scored> poses;
   for (auto const& proposals :
-       {propose_by_pairs(model, pairs, scene), propose_by_facets(model, scene)}) {
+       {propose_by_pairs(model, pairs, scene, explained), propose_by_facets(model, scene)}) {
     for (Proposal const& proposal : proposals) {
       poses.push_back({proposal.pose, proposal.segment, score.rough(proposal.pose, kRoughPoints)});
     }
   }
-  if (poses.size() > kRoughSurvivors) {
+  if (poses.size() > kRoughSurvivors / share) {
     sort_best_first(poses);
-    poses.resize(kRoughSurvivors);
+    poses.resize(kRoughSurvivors / share);
   }
   for (Scored& pose : poses) {
     pose.score = score(pose.pose, kCoarsePoints);
   }
   for (FunnelStep const& step : kFunnel) {
     poses = survivors(std::move(poses), distance, step.apart_diameters * model.diameter_m,
-                      step.survivors);
+                      step.survivors / share);
     if (&step == &kFunnel.front()) {
       align(poses, model, scene, score, random);
     }
@@ -181,12 +192,15 @@ std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable
     }
   }
   poses = survivors(std::move(poses), distance, kCandidatesApart_diameters * model.diameter_m,
-                    kFunnel.back().survivors);
+                    kFunnel.back().survivors / share);
   std::vector<PoseCandidate> candidates;
   candidates.reserve(poses.size());
   for (Scored const& pose : poses) {
     candidates.push_back({pose.pose, verified(model, scene, pose.pose, {})});
   }
+  std::erase_if(candidates, [&](PoseCandidate const& candidate) {
+    return is_in_place_of_another(candidate, explained);
+  });
   float const apart_m = kCandidatesApart_diameters * model.diameter_m;
   candidates = likeliest(std::move(candidates), distance, apart_m, kPolished);
   for (PoseCandidate& candidate : candidates) {
@@ -201,6 +215,26 @@ std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable
   }
   compare(candidates, model);
   return likeliest(std::move(candidates), distance, apart_m, max_candidates);
+}
+
+}  // namespace
+
+std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable const& pairs,
+                                             SearchScene const& scene, std::size_t max_candidates,
+                                             ClaimedPixels const& explained) {
+  return search(model, pairs, scene, explained, 1, max_candidates);
+}
+
+std::vector<PoseCandidate> search_again(SearchModel const& model, PairTable const& pairs,
+                                        SearchScene const& scene,
+                                        std::vector<PoseCandidate> found_before,
+                                        ClaimedPixels const& explained,
+                                        std::size_t max_candidates) {
+  std::ranges::move(search(model, pairs, scene, explained, 2, max_candidates),
+                    std::back_inserter(found_before));
+  std::size_t const all = found_before.size();
+  return likeliest(std::move(found_before), PoseDistance(model),
+                   kCandidatesApart_diameters * model.diameter_m, all);
 }
 
 }  // namespace credo

@@ -70,4 +70,17 @@ std::vector<std::optional<PoseCandidate>> choose_jointly(
   return found;
 }
 
+ClaimedPixels explained_by(std::vector<std::optional<PoseCandidate>> const& found,
+                           SearchScene const& scene, float least_probability) {
+  ClaimedPixels explained(scene.pixels.width(), scene.pixels.height(), 0);
+  for (std::optional<PoseCandidate> const& pose : found) {
+    if (pose && pose->probability >= least_probability) {
+      for (std::uint32_t const pixel : pose->verification.explained_px) {
+        explained[pixel] = 1;
+      }
+    }
+  }
+  return explained;
+}
+
 }  // namespace credo

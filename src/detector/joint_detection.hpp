@@ -17,4 +17,8 @@ namespace credo {
 [[nodiscard]] std::vector<std::optional<PoseCandidate>> choose_jointly(
     std::vector<ObjectCandidates> const& objects, SearchScene const& scene, float min_probability);
 
+/// What those of them that are at least so likely explain together.
+[[nodiscard]] ClaimedPixels explained_by(std::vector<std::optional<PoseCandidate>> const& found,
+                                         SearchScene const& scene, float least_probability);
+
 }  // namespace credo

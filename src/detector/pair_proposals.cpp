@@ -51,14 +51,16 @@ bool fits(SceneSegment const& segment, SearchModel const& model) {
 }
 
 /// One point for each cube of the pairs' step: the first in raster order.
-std::vector<Key> keys_of(SearchScene const& scene, SearchModel const& model, float step_m) {
+std::vector<Key> keys_of(SearchScene const& scene, SearchModel const& model, float step_m,
+                         ClaimedPixels const& explained) {
   std::unordered_map<Cell, std::uint32_t> taken;
   std::vector<Key> keys;
   for (int v = 0; v < scene.pixels.height(); v += 2) {
     for (int u = 0; u < scene.pixels.width(); u += 2) {
       ScenePixel const& pixel = scene.pixels[{u, v}];
       if (!pixel.has_normal() || pixel.segment == 0 ||
-          scene.is_background(pixel, model.diameter_m)) {
+          scene.is_background(pixel, model.diameter_m) ||
+          (!explained.empty() && explained[{u, v}] != 0)) {
         continue;
       }
       Eigen::Vector3f const point = scene.point_at({u, v});
@@ -207,8 +209,8 @@ std::vector<std::uint32_t> references_of(std::vector<Key> const& keys, SearchSce
 }  // namespace
 
 std::vector<Proposal> propose_by_pairs(SearchModel const& model, PairTable const& pairs,
-                                       SearchScene const& scene) {
-  std::vector<Key> const keys = keys_of(scene, model, pairs.step_m());
+                                       SearchScene const& scene, ClaimedPixels const& explained) {
+  std::vector<Key> const keys = keys_of(scene, model, pairs.step_m(), explained);
   KeyCells const cells(keys, kReach_diameters * model.diameter_m);
   Votes votes(pairs.references().size());
   std::vector<Proposal> proposals;

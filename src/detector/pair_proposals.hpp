@@ -7,6 +7,7 @@
 #include "detector/pair_table.hpp"
 #include "detector/search_model.hpp"
 #include "detector/search_scene.hpp"
+#include "detector/verification.hpp"
 
 namespace credo {
 
@@ -19,10 +20,11 @@ struct Proposal {
 
 /// Poses of a model by voting of point pairs (Drost et al. 2010): each of some points of the scene
 /// votes, with all points around it, for a point of the model and a turn about its normal. Points
-/// on planes larger than the model are left out, and segments larger than it. In the order of the
-/// segments.
+/// on planes larger than the model are left out, segments larger than it, and what is `explained`
+/// already (empty, or as large as the image). In the order of the segments.
 [[nodiscard]] std::vector<Proposal> propose_by_pairs(SearchModel const& model,
                                                      PairTable const& pairs,
-                                                     SearchScene const& scene);
+                                                     SearchScene const& scene,
+                                                     ClaimedPixels const& explained);
 
 }  // namespace credo

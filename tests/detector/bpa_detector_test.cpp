@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -102,6 +103,31 @@ TEST(BpaDetector, FindsWhatIsAnywhere) {
       detector.answers(*desk_frame(), {vague_request(before_desk().inverse())});
   ASSERT_EQ(answers.size(), 1U);
   expect_at(answers[0], truth_from());
+}
+
+// A search tells eight poses, and several of them may be in one place.
+TEST(BpaDetector, FindsAllOfMoreThanOneSearchTells) {
+  std::vector<Placed> things = desk_and_floor();
+  std::vector<Se3> truths;
+  std::vector<DetectionRequest> requests;
+  for (int i = 0; i < 10; ++i) {
+    Se3 const T_world_bracket =
+        placed_at({-0.4 + 0.2 * (i % 5), -0.12 + 0.24 * (i / 5), 0}, 0.3 + 0.4 * (i % 3));
+    things.push_back({bracket(), T_world_bracket});
+    truths.push_back(before_desk().inverse() * T_world_bracket);
+    requests.push_back(vague_request(before_desk().inverse()));
+    requests.back().object_id = "bracket_" + std::to_string(i);
+  }
+  FramePtr const frame = frame_of(things, before_desk(), {SensorModel::kGaussian});
+  BpaDetector detector(models(), config_of(ObjectSearch::kGlobal));
+  std::vector<Detection> const found = detector.detect(*frame, requests);
+  for (Se3 const& truth : truths) {
+    EXPECT_EQ(std::ranges::count_if(found,
+                                    [&](Detection const& one) {
+                                      return boxminus(truth, one.pose_camera.mean).norm() < 0.1;
+                                    }),
+              1);
+  }
 }
 
 TEST(BpaDetector, SearchesNearByOnlyWhereTold) {

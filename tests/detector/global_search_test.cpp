@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "detector/detection_picture.hpp"
@@ -89,7 +90,7 @@ TEST(GlobalSearch, IsFoundAmongThingsThatComeBefore) {
   things.push_back({bracket(), T_world_bracket});
   SearchScene const scene = scene_of(*frame_of(things, before_desk(), {SensorModel::kGaussian}));
   SearchModel const& model = prepared_bracket();
-  std::vector<Proposal> const proposals = propose_by_pairs(model, bracket_pairs(), scene);
+  std::vector<Proposal> const proposals = propose_by_pairs(model, bracket_pairs(), scene, {});
   CameraPose const truth = camera_pose(before_desk().inverse() * T_world_bracket);
   auto const near = [&](Proposal const& proposal) {
     return mean_distance_m(model, proposal.pose, truth) < 0.15 * model.diameter_m;
@@ -98,6 +99,37 @@ TEST(GlobalSearch, IsFoundAmongThingsThatComeBefore) {
   std::vector<PoseCandidate> const found = search_everywhere(model, bracket_pairs(), scene, 5);
   ASSERT_FALSE(found.empty());
   EXPECT_LT(mean_distance_m(model, found[0].pose, truth), 0.1 * model.diameter_m);
+}
+
+TEST(GlobalSearch, ASecondLookLooksAtWhatIsNotExplained) {
+  std::vector<Placed> things = desk_and_floor();
+  std::vector<CameraPose> truths;
+  for (double const x : {-0.15, 0.15}) {
+    Se3 const T_world_bracket = placed_at({x, 0, 0}, 0.3);
+    things.push_back({bracket(), T_world_bracket});
+    truths.push_back(camera_pose(before_desk().inverse() * T_world_bracket));
+  }
+  SearchScene const scene = scene_of(*frame_of(things, before_desk(), {SensorModel::kGaussian}));
+  SearchModel const& model = prepared_bracket();
+  auto const is_at = [&](PoseCandidate const& candidate, CameraPose const& truth) {
+    return mean_distance_m(model, candidate.pose, truth) < 0.1 * model.diameter_m;
+  };
+  for (CameraPose const& known : truths) {
+    CameraPose const& other = truths[&known == &truths[0] ? 1 : 0];
+    ClaimedPixels explained(scene.pixels.width(), scene.pixels.height(), 0);
+    PoseCandidate const before{known, verified(model, scene, known, {})};
+    for (std::uint32_t const pixel : before.verification.explained_px) {
+      explained[pixel] = 1;
+    }
+    auto const only = search_everywhere(model, bracket_pairs(), scene, 1, explained);
+    ASSERT_EQ(only.size(), 1U);
+    EXPECT_TRUE(is_at(only[0], other));
+    auto const both = search_again(model, bracket_pairs(), scene, {before}, explained, 1);
+    ASSERT_EQ(both.size(), 2U) << "what was found before stays";
+    EXPECT_TRUE(std::ranges::any_of(both, [&](auto const& c) { return is_at(c, known); }));
+    EXPECT_TRUE(std::ranges::any_of(both, [&](auto const& c) { return is_at(c, other); }));
+    EXPECT_GE(both[0].verification.log_odds, both[1].verification.log_odds);
+  }
 }
 
 class MugAnywhere : public ::testing::TestWithParam<double> {};

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -131,6 +133,19 @@ TEST_F(TwoBrackets, AProbabilityStaysAsLowAsItWasAlone) {
   ASSERT_TRUE(found[0].has_value());
   EXPECT_EQ(found[0]->verification.log_odds, -0.5F);
   EXPECT_LT(found[0]->probability, 0.9F);
+}
+
+TEST_F(TwoBrackets, WhatTheLikelyOnesExplainIsKnown) {
+  auto found = chosen({{truths_[0]}, {truths_[1]}});
+  ASSERT_TRUE(found[0] && found[1]);
+  found[1]->probability = 0.4F;
+  found.emplace_back(std::nullopt);
+  ClaimedPixels const explained = explained_by(found, scene_, 0.5F);
+  ASSERT_EQ(explained.size(), scene_.pixels.size());
+  auto const& of_first = found[0]->verification.explained_px;
+  EXPECT_EQ(std::ranges::count(explained, 1), static_cast<std::ptrdiff_t>(of_first.size()));
+  EXPECT_TRUE(
+      std::ranges::all_of(of_first, [&](std::uint32_t pixel) { return explained[pixel] == 1; }));
 }
 
 TEST_F(TwoBrackets, WithoutCandidatesNothingIsFound) {

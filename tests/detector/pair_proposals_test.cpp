@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -30,7 +31,7 @@ class TurnedBracket : public ::testing::TestWithParam<double> {};
 TEST_P(TurnedBracket, ItsPoseIsProposed) {
   BracketView const view = bracket_on_desk(GetParam());
   std::vector<Proposal> const proposals =
-      propose_by_pairs(prepared_bracket(), bracket_pairs(), view.scene);
+      propose_by_pairs(prepared_bracket(), bracket_pairs(), view.scene, {});
   EXPECT_TRUE(std::ranges::any_of(proposals, [&](Proposal const& proposal) {
     return near(prepared_bracket(), proposal.pose, view.truth);
   })) << proposals.size();
@@ -41,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Yaws, TurnedBracket, ::testing::Values(0.3, 1.9, 3.5, 5
 TEST(PairProposals, AreMotions) {
   BracketView const view = bracket_on_desk(0.3);
   for (Proposal const& proposal :
-       propose_by_pairs(prepared_bracket(), bracket_pairs(), view.scene)) {
+       propose_by_pairs(prepared_bracket(), bracket_pairs(), view.scene, {})) {
     Eigen::Matrix3f const& R = proposal.pose.rotation;
     EXPECT_LT((R * R.transpose() - Eigen::Matrix3f::Identity()).cwiseAbs().maxCoeff(), 1e-4F);
     EXPECT_NEAR(R.determinant(), 1.0F, 1e-4F);
@@ -51,7 +52,7 @@ TEST(PairProposals, AreMotions) {
 TEST(PairProposals, ComeInTheOrderOfTheSegmentsAndOfNoneThatIsTooLarge) {
   BracketView const view = bracket_on_desk(0.3);
   SearchModel const& model = prepared_bracket();
-  std::vector<Proposal> const proposals = propose_by_pairs(model, bracket_pairs(), view.scene);
+  std::vector<Proposal> const proposals = propose_by_pairs(model, bracket_pairs(), view.scene, {});
   EXPECT_TRUE(std::ranges::is_sorted(proposals, {}, &Proposal::segment));
   for (Proposal const& proposal : proposals) {
     ASSERT_GE(proposal.segment, 1);
@@ -64,8 +65,8 @@ TEST(PairProposals, ComeInTheOrderOfTheSegmentsAndOfNoneThatIsTooLarge) {
 
 TEST(PairProposals, AreTheSameEachTime) {
   BracketView const view = bracket_on_desk(1.9);
-  auto const one = propose_by_pairs(prepared_bracket(), bracket_pairs(), view.scene);
-  auto const again = propose_by_pairs(prepared_bracket(), bracket_pairs(), view.scene);
+  auto const one = propose_by_pairs(prepared_bracket(), bracket_pairs(), view.scene, {});
+  auto const again = propose_by_pairs(prepared_bracket(), bracket_pairs(), view.scene, {});
   ASSERT_EQ(one.size(), again.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].pose.rotation, again[i].pose.rotation);
@@ -76,9 +77,9 @@ TEST(PairProposals, AreTheSameEachTime) {
 TEST(PairProposals, WhereNothingIsSeenThereAreNone) {
   Frame frame;
   frame.cloud_camera = cloud_from_depth(Grid<float>(640, 480, 0.0F), frame.intrinsics);
-  EXPECT_TRUE(propose_by_pairs(prepared_bracket(), bracket_pairs(), scene_of(frame)).empty());
+  EXPECT_TRUE(propose_by_pairs(prepared_bracket(), bracket_pairs(), scene_of(frame), {}).empty());
   FramePtr const bare = frame_of(desk_and_floor(), before_desk());
-  EXPECT_TRUE(propose_by_pairs(prepared_bracket(), bracket_pairs(), scene_of(*bare)).empty())
+  EXPECT_TRUE(propose_by_pairs(prepared_bracket(), bracket_pairs(), scene_of(*bare), {}).empty())
       << "planes larger than the model";
 }
 
@@ -88,7 +89,24 @@ TEST(PairProposals, PointsOnALargePlaneSpeakForNothing) {
   for (ScenePixel& pixel : scene.pixels) {
     pixel.plane = 0;
   }
-  EXPECT_TRUE(propose_by_pairs(prepared_bracket(), bracket_pairs(), scene).empty());
+  EXPECT_TRUE(propose_by_pairs(prepared_bracket(), bracket_pairs(), scene, {}).empty());
+}
+
+TEST(PairProposals, WhatIsExplainedProposesNothing) {
+  SearchScene const scene = bracket_on_desk(0.3).scene;
+  std::vector<Proposal> const all =
+      propose_by_pairs(prepared_bracket(), bracket_pairs(), scene, {});
+  ASSERT_FALSE(all.empty());
+  std::uint16_t const segment = all.front().segment;
+  ClaimedPixels explained(scene.pixels.width(), scene.pixels.height(), 0);
+  for (std::size_t i = 0; i < scene.pixels.size(); ++i) {
+    explained[i] = scene.pixels[i].segment == segment ? 1 : 0;
+  }
+  auto const rest = propose_by_pairs(prepared_bracket(), bracket_pairs(), scene, explained);
+  EXPECT_TRUE(std::ranges::none_of(rest, [&](Proposal const& p) { return p.segment == segment; }));
+  explained = ClaimedPixels(scene.pixels.width(), scene.pixels.height(), 0);
+  EXPECT_EQ(propose_by_pairs(prepared_bracket(), bracket_pairs(), scene, explained).size(),
+            all.size());
 }
 
 }  // namespace
