@@ -16,6 +16,8 @@ constexpr std::size_t kMostFacets = 6;
 constexpr float kSameNormalCosine = 0.95F;
 constexpr int kBins = 6;
 constexpr int kTurns = 36;
+/// A rectangle is as good by so many of its points; the floor has ten thousand.
+constexpr std::size_t kRectanglePoints = 300;
 /// Points beyond on each side of a rectangle are noise.
 constexpr float kTrimmed = 0.02F;
 
@@ -71,6 +73,17 @@ Interval trimmed(std::vector<float>& values) {
   auto const top = static_cast<std::ptrdiff_t>(values.size()) - 1 - cut;
   std::ranges::nth_element(values, values.begin() + top);
   return {low, values[static_cast<std::size_t>(top)]};
+}
+
+/// So many of them, evenly, in their order.
+std::vector<Eigen::Vector3f> some_of(std::vector<Eigen::Vector3f> const& points, std::size_t most) {
+  std::size_t const count = std::min(points.size(), most);
+  std::vector<Eigen::Vector3f> some;
+  some.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    some.push_back(points[i * points.size() / count]);
+  }
+  return some;
 }
 
 /// The rectangle of least area, in a plane, that holds points.
@@ -136,7 +149,7 @@ std::optional<Facet> take_facet(std::vector<OrientedPoint>& points, float tolera
     return std::nullopt;
   }
   facet.points = own.size();
-  set_rectangle(facet, own);
+  set_rectangle(facet, some_of(own, kRectanglePoints));
   return facet;
 }
 

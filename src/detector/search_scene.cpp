@@ -12,7 +12,7 @@ namespace credo {
 namespace {
 
 std::int8_t coded(float component) {
-  return static_cast<std::int8_t>(std::lround(component * 127.0F));
+  return static_cast<std::int8_t>(component * 127.0F + (component < 0.0F ? -0.5F : 0.5F));
 }
 
 Grid<ScenePixel> pixels_of(Grid<float> const& depth_m, NormalMap const& normals,
@@ -33,11 +33,24 @@ Grid<ScenePixel> pixels_of(Grid<float> const& depth_m, NormalMap const& normals,
   return pixels;
 }
 
+std::vector<int> pixels_of_segments(SearchScene const& scene, std::size_t segment_count) {
+  std::vector<int> pixels(segment_count, 0);
+  for (ScenePixel const& pixel : scene.pixels) {
+    if (pixel.segment > 0 && pixel.depth_m > 0.0F) {
+      ++pixels[pixel.segment - 1U];
+    }
+  }
+  return pixels;
+}
+
+/// Every second pixel of every second row tells how large a segment is.
 std::vector<PointMoments> moments_of(SearchScene const& scene, std::size_t segment_count) {
+  constexpr int kStep_px = 2;
   std::vector<PointMoments> moments(segment_count);
-  double const pixel_solid_angle = 1.0 / (scene.intrinsics.fx_px * scene.intrinsics.fy_px);
-  for (int v = 0; v < scene.pixels.height(); ++v) {
-    for (int u = 0; u < scene.pixels.width(); ++u) {
+  double const pixel_solid_angle =
+      kStep_px * kStep_px / (scene.intrinsics.fx_px * scene.intrinsics.fy_px);
+  for (int v = 0; v < scene.pixels.height(); v += kStep_px) {
+    for (int u = 0; u < scene.pixels.width(); u += kStep_px) {
       ScenePixel const& pixel = scene.pixels[{u, v}];
       if (pixel.segment == 0 || pixel.depth_m <= 0.0F) {
         continue;
@@ -55,10 +68,10 @@ std::vector<PointMoments> moments_of(SearchScene const& scene, std::size_t segme
   return moments;
 }
 
-SceneSegment segment_of(PointMoments const& moments) {
+SceneSegment segment_of(PointMoments const& moments, int pixels) {
   SceneSegment segment;
-  segment.pixels = static_cast<int>(moments.count);
-  if (segment.pixels > 0) {
+  segment.pixels = pixels;
+  if (moments.count > 0.0) {
     PointSpread const spread = spread_of(moments);
     segment.centre_m = spread.mean.cast<float>();
     // Of an even strip the deviation is its length over the root of 12.
@@ -106,8 +119,10 @@ SearchScene prepare_scene(Grid<float> const& depth_m, CameraIntrinsics const& in
     find_planes(scene, segment_count);
   }
   scene.segments.reserve(segment_count);
-  for (PointMoments const& of_segment : moments_of(scene, segment_count)) {
-    scene.segments.push_back(segment_of(of_segment));
+  std::vector<PointMoments> const moments = moments_of(scene, segment_count);
+  std::vector<int> const pixels = pixels_of_segments(scene, segment_count);
+  for (std::size_t i = 0; i < segment_count; ++i) {
+    scene.segments.push_back(segment_of(moments[i], pixels[i]));
   }
   scene.facets = scene_facets(scene);
   return scene;
