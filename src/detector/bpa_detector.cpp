@@ -7,6 +7,7 @@
 
 #include "detector/pose_covariance.hpp"
 #include "detector/scene_of_frame.hpp"
+#include "detector/symmetry_twin.hpp"
 #include "detector/tracking.hpp"
 
 namespace credo {
@@ -57,7 +58,7 @@ Detection detection_of(SearchModel const& model, SearchScene const& scene,
                        PoseCandidate const& candidate, std::string const& type) {
   Detection detection;
   detection.type = type;
-  detection.pose_camera = with_covariance(model, scene, candidate.pose);
+  detection.pose_camera = with_covariance(model, scene, best_twin(model, scene, candidate.pose));
   detection.score = static_cast<double>(candidate.probability);
   detection.visible_fraction = static_cast<double>(candidate.verification.visible_fraction);
   return detection;
