@@ -135,11 +135,11 @@ private:
       std::int32_t const* const labels = labels_.row(v);
       front_bits(worth_.row(v), stride, least, static_cast<std::size_t>(map_.width()),
                  bits_.data());
-      for (int u = bits_.next_set(0); u < map_.width(); u = bits_.next_set(u + 1)) {
+      bits_.for_each_set([&](int u) {
         if (labels[u] != 0) {
           visit(v * stride + u);
         }
-      }
+      });
     }
   }
 

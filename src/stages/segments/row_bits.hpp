@@ -23,6 +23,15 @@ public:
   [[nodiscard]] int next_set(int u) const { return next(u, 0); }
   /// The first 0 at u or behind; the width if there is none.
   [[nodiscard]] int next_clear(int u) const { return next(u, ~std::uint64_t{0}); }
+  /// Calls `visit(u)` for each 1, from the left.
+  template <typename Visit>
+  void for_each_set(Visit const& visit) const {
+    for (std::size_t w = 0; w < words_.size(); ++w) {
+      for (std::uint64_t rest = words_[w]; rest != 0; rest &= rest - 1) {
+        visit(static_cast<int>(w * kWord) + std::countr_zero(rest));
+      }
+    }
+  }
 
 private:
   static constexpr std::size_t kWord = 64;

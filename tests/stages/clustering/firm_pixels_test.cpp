@@ -2,11 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <utility>
 #include <vector>
@@ -56,25 +58,49 @@ Grid<std::uint8_t> literal_firm_pixels(Grid<float> const& depth_m, LabelMap cons
   return firm;
 }
 
-TEST(FirmPixels, AreThoseOfTheLiteralAlgorithm) {
-  std::mt19937 random(1);
+/// Labels and depths of pieces from large ones with a few holes to crumbs.
+void expect_literal(int width, int height, bool nan_without_depth, std::mt19937& random) {
   std::array<LabelCode, 6> const codes = {kThing, kThing,      kThing + 1,
                                           kFloor, kUnassigned, kNoDepth};
-  for (int k = 0; k < 200; ++k) {
-    int const width = static_cast<int>(random() % 40);
-    LabelMap labels(width, static_cast<int>(random() % 30));
-    Grid<float> depth_m(labels.width(), labels.height());
-    // From large pieces with a few holes to crumbs.
-    unsigned const noise = 1 + random() % 8;
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      labels[i] = random() % 8 < noise ? codes.at(random() % codes.size())
-                                       : codes.at(random() % 10 == 0 ? 2 : 0);
-      depth_m[i] = labels[i] == kNoDepth   ? (k % 2 == 0 ? 0.0F : kNaN)
-                   : random() % 16 < noise ? 1.0F + 0.01F * static_cast<float>(random() % 16)
-                                           : 1.1F;
-    }
-    EXPECT_TRUE(firm_pixels(depth_m, labels) == literal_firm_pixels(depth_m, labels)) << k;
+  LabelMap labels(width, height);
+  Grid<float> depth_m(width, height);
+  unsigned const noise = 1 + random() % 8;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    labels[i] = random() % 8 < noise ? codes.at(random() % codes.size())
+                                     : codes.at(random() % 10 == 0 ? 2 : 0);
+    depth_m[i] = labels[i] == kNoDepth   ? (nan_without_depth ? kNaN : 0.0F)
+                 : random() % 16 < noise ? 1.0F + 0.01F * static_cast<float>(random() % 16)
+                                         : 1.1F;
   }
+  EXPECT_TRUE(firm_pixels(depth_m, labels) == literal_firm_pixels(depth_m, labels));
+}
+
+TEST(FirmPixels, AreThoseOfTheLiteralAlgorithm) {
+  std::mt19937 random(1);
+  for (int k = 0; k < 200; ++k) {
+    SCOPED_TRACE(k);
+    int const width = static_cast<int>(random() % 40);
+    int const height = static_cast<int>(random() % 30);
+    expect_literal(width, height, k % 2 != 0, random);
+  }
+}
+
+// Rows that end with a word of bits, just before and just behind.
+TEST(FirmPixels, AreThoseOfTheLiteralAlgorithmOnEveryInstructionSet) {
+  for (std::int64_t const target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    std::mt19937 random(2);
+    for (int const width : {1, 17, 63, 64, 65, 66, 127, 128, 129, 192, 200}) {
+      for (int k = 0; k < 6; ++k) {
+        SCOPED_TRACE(width);
+        expect_literal(width, 20, k % 2 != 0, random);
+      }
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 TEST(FirmPixels, AreThoseThatHoldTogether) {
