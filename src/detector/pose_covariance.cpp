@@ -10,11 +10,13 @@ namespace credo {
 namespace {
 
 constexpr std::size_t kPoints = 800;
-/// Neighbouring pixels err alike: so many of them are worth one.
-constexpr double kEffectiveShare = 0.5;
+/// Residuals of right poses, in variances of a pixel: normals are of smoothed depth, and so is what
+/// points fall on. Where they are larger, model, pose or sensor is worse than thought, and tells
+/// less by as much.
+constexpr double kUsualResidual = 0.3;
 /// What all points of a frame have in common.
-constexpr double kBiasAlongRay_m = 0.0005;
-constexpr double kBiasAcross_m = 0.00025;
+constexpr double kBiasAlongRay_m = 0.0003;
+constexpr double kBiasAcross_m = 0.00015;
 constexpr double kUnknown_m = 1.0;
 constexpr double kUnknown_rad = 2.0;
 
@@ -38,7 +40,7 @@ Matrix6d pose_information(SearchModel const& model, SearchScene const& scene,
                           CameraPose const& pose) {
   PoseEvidence const evidence = evidence_of(model, scene, pose, kPoints);
   Matrix6d information =
-      evidence.information * (kEffectiveShare / std::max(1.0, evidence.mean_squared_residual));
+      evidence.information / std::max(1.0, evidence.mean_squared_residual / kUsualResidual);
   if (model.symmetry.axis) {
     forget_turn(information, *model.symmetry.axis, pose);
   }
