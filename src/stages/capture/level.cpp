@@ -42,10 +42,10 @@ WorldLevel level_as_source(FloorLean const& lean, Frame const& frame) {
 
 /// A world levelled by a frame's floor leans by as much as that floor is wrong, and objects 8 m
 /// away are centimetres off in it; poses that are level already must not be made to lean so.
-WorldLevel level_by_floor(Plane const& floor_camera, CoarseCloud const& coarse,
-                          Frame const& frame) {
+WorldLevel level_by_floor(Plane const& floor_camera, CoarseCloud const& coarse, Frame const& frame,
+                          LevelMode mode) {
   FloorLean const lean = floor_lean(floor_camera, coarse, frame.T_source_camera);
-  if (lean.may_be_level()) {
+  if (mode != LevelMode::kByFloor && lean.may_be_level()) {
     return level_as_source(lean, frame);
   }
   Plane const floor_source = transformed(frame.T_source_camera, floor_camera);
@@ -112,7 +112,7 @@ WorldLevel find_level(std::span<FramePtr const> frames, PoseConfig const& config
   for (FramePtr const& frame : frames) {
     CoarseCloud const coarse = coarse_cloud(frame->cloud_camera);
     if (std::optional<Plane> const floor = find_floor(coarse)) {
-      return level_by_floor(*floor, coarse, *frame);
+      return level_by_floor(*floor, coarse, *frame, config.level);
     }
   }
   return level_by_config(frames.empty() ? Frame{} : *frames.front(), config);

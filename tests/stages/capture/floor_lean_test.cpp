@@ -96,6 +96,10 @@ TEST(FloorLean, ALevelSourceIsNotTurnedByASensorsSteps) {
     EXPECT_TRUE(level.floor_found);
     EXPECT_EQ(level.T_world_source.matrix(), Eigen::Matrix4d::Identity()) << level.note;
     EXPECT_THAT(level.note, testing::HasSubstr("source taken as level"));
+    PoseConfig by_floor;
+    by_floor.level = LevelMode::kByFloor;
+    EXPECT_NE(find_level({&frame, 1}, by_floor).T_world_source.matrix(),
+              Eigen::Matrix4d::Identity());
   }
 }
 
