@@ -48,6 +48,7 @@ COLUMNS = [
     ("object R %", lambda s: s["objects"]["recall"], "{:.0%}"),
     ("mm", lambda s: mm(s["objects"]["translation_m"]), "{:.1f}"),
     ("NEES (95 %)", lambda s: nees(s["objects"]), "{}"),
+    ("repeated", lambda s: repeated(s["objects"]), "{}"),
     ("ECE", lambda s: s["existence"]["ece"], "{:.3f}"),
     ("Brier", lambda s: s["existence"]["brier"], "{:.3f}"),
     ("change P %", lambda s: s["change"]["precision"], "{:.0%}"),
@@ -71,6 +72,12 @@ def mm(metres):
 def nees(objects):
     """With the bounds of an honest one."""
     return None if objects["nees"] is None else "{nees:.1f} ({nees_low:.1f} to {nees_high:.1f})".format(**objects)
+
+
+def repeated(objects):
+    """The bounds if claims about one object repeat each other, as they do."""
+    return None if objects["nees"] is None else \
+        "{nees_repeated_low:.1f} to {nees_repeated_high:.1f}".format(**objects)
 
 
 def switches(stuff):

@@ -48,9 +48,12 @@ FieldList fields(PoseConfig& config) {
        {},
        "",
        "trajectory for pose.source: file; lines 'stamp_s tx ty tz qx qy qz qw' or 16 numbers"},
-      choice("level", config.level, {"off", "auto", "given"},
-             "off: the source is level, floor at z = 0; auto: find the floor and level by it; "
-             "given: the first camera stands as camera_* say, above a floor at z = 0"),
+      choice(
+          "level", config.level, {"off", "auto", "given", "floor"},
+          "off: the source is level, floor at z = 0; auto: find the floor and level by it what is "
+          "not level yet; "
+          "given: the first camera stands as camera_* say, above a floor at z = 0; floor: as auto, "
+          "however little it leans"),
       {"camera_pitch_rad",
        &config.camera_pitch_rad,
        {-1.6, 1.6},

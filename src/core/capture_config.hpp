@@ -61,10 +61,12 @@ enum class PoseSource : std::uint8_t {
 enum class LevelMode : std::uint8_t {
   /// The source is level.
   kOff,
-  /// By the floor in the first frames.
+  /// By the floor in the first frames, where the source is not level already.
   kAuto,
   /// The first camera stands as PoseConfig says, on a floor at z = 0: a calibration.
   kGiven,
+  /// By the floor in the first frames, however little it leans (T).
+  kByFloor,
 };
 
 /// Poses, and how the world is found from them (world = source turned level, floor at z = 0).

@@ -22,6 +22,9 @@ struct Detection {
   PoseDistribution pose_camera;
   double score = 0.0;
   double visible_fraction = 1.0;
+  /// Whether the pose's error is the last one's over again while the picture stays the same, as it
+  /// is of whatever is computed from pictures. False: drawn anew in each frame.
+  bool errors_repeat = true;
 };
 
 /// Nobody looked at a frame: a detector that is not there, or does not answer. The frame goes on

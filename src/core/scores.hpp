@@ -61,6 +61,11 @@ struct ObjectScores {
   /// one object in frames that follow each other are not.
   std::optional<double> nees_low;
   std::optional<double> nees_high;
+  /// The same if the claims about one object repeat each other as those of an optimal filter do
+  /// (nees_bounds.hpp), and how many independent claims all of them are worth.
+  std::optional<double> nees_repeated_low;
+  std::optional<double> nees_repeated_high;
+  std::optional<double> nees_claims;
   std::optional<double> precision;
   std::optional<double> recall;
 

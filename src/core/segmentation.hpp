@@ -53,6 +53,8 @@ struct ObjectObservation {
   std::string type;
   /// As detected.
   PoseDistribution pose_world;
+  /// Of the detection.
+  bool errors_repeat = true;
   /// Of its model: which other poses would look the same.
   Symmetry symmetry;
   /// Pixels that its region holds, 0 where the detected pose touches none.
@@ -65,6 +67,7 @@ struct RefusedDetection {
   /// The object of that type to which it is nearest; empty where there is none.
   std::string object_id;
   PoseDistribution pose_world;
+  bool errors_repeat = true;
   /// Squared Mahalanobis distance to that object's pose distribution, and the most that the gate
   /// lets pass. Within the gate it was refused because another detection fits better.
   double squared_distance = 0.0;

@@ -51,6 +51,7 @@ void ObjectScorer::add_pose(ObjectSummary const& believed, TrueThing const& thin
         match_pose({pose, believed.covariance}, {thing.pose, Matrix6d::Zero()}, symmetry);
     nees_.add(nees.squared_distance);
     degrees_of_freedom_.add(nees.degrees_of_freedom);
+    claims_.add(believed.id, believed.covariance, nees.degrees_of_freedom);
   }
 }
 
@@ -106,6 +107,10 @@ ObjectScores ObjectScorer::scores() const {
     NeesBounds const bounds = nees_bounds(*scores.nees_expected * count, nees_.count());
     scores.nees_low = bounds.low;
     scores.nees_high = bounds.high;
+    scores.nees_claims = claims_.worth();
+    NeesBounds const repeated = nees_bounds_of(*scores.nees_expected, *scores.nees_claims);
+    scores.nees_repeated_low = repeated.low;
+    scores.nees_repeated_high = repeated.high;
   }
   scores.precision = precise_.value();
   scores.recall = recalled_.value();

@@ -10,6 +10,7 @@
 #include "core/scores.hpp"
 #include "core/truth.hpp"
 #include "eval/mean.hpp"
+#include "eval/nees_bounds.hpp"
 #include "eval/told_objects.hpp"
 #include "eval/true_model.hpp"
 
@@ -39,6 +40,7 @@ private:
   Mean rotation_deg_;
   Mean nees_;
   Mean degrees_of_freedom_;
+  RepeatedClaims claims_;
   Mean precise_;
   Mean recalled_;
   Mean within_tenth_;

@@ -70,6 +70,9 @@ std::string scores_json(Scores const& scores) {
                      {"nees_low", json_of(objects.nees_low)},
                      {"nees_high", json_of(objects.nees_high)},
                      {"nees_inside", json_of(objects.nees_inside())},
+                     {"nees_repeated_low", json_of(objects.nees_repeated_low)},
+                     {"nees_repeated_high", json_of(objects.nees_repeated_high)},
+                     {"nees_claims", json_of(objects.nees_claims)},
                      {"precision", json_of(objects.precision)},
                      {"recall", json_of(objects.recall)}};
   json["existence"] = {{"ece", nullptr}, {"brier", nullptr}, {"reliability", nullptr}};

@@ -96,6 +96,7 @@ Detection false_alarm(SimDetectorConfig const& config, SceneCamera const& camera
   alarm.pose_camera = {Se3(rotation, position), told_covariance(config)};
   alarm.visible_fraction = uniform(random, config.min_visible_fraction, 1.0);
   alarm.score = alarm.visible_fraction;
+  alarm.errors_repeat = false;
   return alarm;
 }
 
@@ -126,7 +127,7 @@ std::vector<Detection> SimDetector::detect(Frame const& frame,
       bool const missed = uniform(random, 0.0, 1.0) < config_.miss_probability;
       if (!missed && visible > 0.0 && visible >= config_.min_visible_fraction) {
         found.push_back({type_of(*thing), proposed_pose(config_, *thing, T_world_camera, random),
-                         visible, visible});
+                         visible, visible, false});
       }
     }
   }

@@ -14,7 +14,8 @@ namespace credo {
 /// type (type_of), whatever the expected pose, that is visible enough and that it does not miss.
 ///  - The pose is boxplus(true pose in the camera, e), e ~ N(0, R) with the two sigmas on the
 ///    diagonal of R, then shifted by the bias. R is the covariance that it tells; a sigma of 0 is
-///    told as 1e-6 m or rad, so that R stays positive definite.
+///    told as 1e-6 m or rad, so that R stays positive definite. Each frame draws anew, which it
+///    says, too (Detection::errors_repeat); a bias it keeps to itself.
 ///  - The score is the visible fraction. Of which nothing is visible, that is never found.
 ///  - False alarms follow the objects: a Poisson number with the type one of those requested, the
 ///    place uniform in pixels and from 0.5 to 4 m of depth, any rotation, and score and visible

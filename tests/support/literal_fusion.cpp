@@ -52,7 +52,7 @@ double icp_score(StuffCluster const& source_cluster, StuffCluster const& target_
   if (refused) {
     return kInfinity;
   }
-  return config.score == StuffScore::kSum ? sum_m2 : mean_m2;
+  return sum_m2;
 }
 
 bool candidates(StuffCluster const& a, StuffCluster const& b, double margin_m) {
@@ -88,21 +88,6 @@ std::vector<std::optional<std::size_t>> literal_matches(std::vector<StuffCluster
     }
   }
   std::vector<std::optional<std::size_t>> matches(known.size());
-  if (config.score == StuffScore::kMean) {
-    // The best pair, then the best of what is left, and so on.
-    Eigen::MatrixXd both = to_known + to_seen;
-    for (std::size_t k = 0; k < known.size() && !seen.empty(); ++k) {
-      Eigen::Index i = 0;
-      Eigen::Index j = 0;
-      if (!std::isfinite(both.minCoeff(&i, &j))) {
-        break;
-      }
-      matches[static_cast<std::size_t>(i)] = static_cast<std::size_t>(j);
-      both.row(i).setConstant(kInfinity);
-      both.col(j).setConstant(kInfinity);
-    }
-    return matches;
-  }
   for (std::size_t i = 0; i < known.size() && !seen.empty(); ++i) {
     Eigen::Index best_seen = 0;
     double const score = to_known.row(static_cast<Eigen::Index>(i)).minCoeff(&best_seen);

@@ -32,7 +32,7 @@ constexpr char const* kBegins =
 constexpr char const* kScrapWins =
     "clusters match where each is the other's best by the sum of squared distances, and a scrap of "
     "few points has a small sum. One beside the bottle wins one of the two directions, so that the "
-    "bottle becomes a new thing. By default the mean decides, and smaller clusters are none.";
+    "bottle becomes a new thing. By default clusters are matched by the blocks that they share.";
 constexpr char const* kTableKeepsAll =
     "what a pose has missed of a table joins it, since it is of one segment with what the pose has "
     "reached: nothing of it is left over.";

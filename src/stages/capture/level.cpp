@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "stages/capture/coarse_cloud.hpp"
+#include "stages/capture/floor_lean.hpp"
 #include "stages/capture/floor_search.hpp"
 
 namespace credo {
@@ -25,13 +28,34 @@ std::string two_decimals(double value) {
   return text.str();
 }
 
-WorldLevel level_by_floor(Plane const& floor_source, FrameIndex frame, double height_m) {
+/// The floor's height alone, of a source that is level as far as one frame can tell.
+WorldLevel level_as_source(FloorLean const& lean, Frame const& frame) {
+  WorldLevel level;
+  double const shift_m = lean.may_be_at_zero() ? 0.0 : -lean.height_m;
+  level.T_world_source = Se3(Eigen::Quaterniond::Identity(), {0, 0, shift_m});
+  level.floor_found = true;
+  level.note = "source taken as level: the floor in frame " + std::to_string(number(frame.index)) +
+               " leans by " + two_decimals(lean.lean_rad() * 180.0 / std::numbers::pi) +
+               " degrees, no more than one frame's floor may be wrong by";
+  return level;
+}
+
+/// A world levelled by a frame's floor leans by as much as that floor is wrong, and objects 8 m
+/// away are centimetres off in it; poses that are level already must not be made to lean so.
+WorldLevel level_by_floor(Plane const& floor_camera, CoarseCloud const& coarse, Frame const& frame,
+                          LevelMode mode) {
+  FloorLean const lean = floor_lean(floor_camera, coarse, frame.T_source_camera);
+  if (mode != LevelMode::kByFloor && lean.may_be_level()) {
+    return level_as_source(lean, frame);
+  }
+  Plane const floor_source = transformed(frame.T_source_camera, floor_camera);
   WorldLevel level;
   // The plane normal . p = offset becomes z = offset once the normal is turned to +z.
   level.T_world_source = Se3(rotation_to_z(floor_source.normal), {0, 0, -floor_source.offset_m});
   level.floor_found = true;
-  level.note = "levelled by the floor in frame " + std::to_string(number(frame)) + ", " +
-               two_decimals(height_m) + " m below the camera";
+  level.note = "levelled by the floor in frame " + std::to_string(number(frame.index)) + ", " +
+               two_decimals(floor_camera.signed_distance_m(Eigen::Vector3d::Zero())) +
+               " m below the camera";
   return level;
 }
 
@@ -86,9 +110,9 @@ WorldLevel find_level(std::span<FramePtr const> frames, PoseConfig const& config
     return level_as_given(frames.empty() ? Frame{} : *frames.front(), config);
   }
   for (FramePtr const& frame : frames) {
-    if (std::optional<Plane> const floor = find_floor(frame->cloud_camera)) {
-      return level_by_floor(transformed(frame->T_source_camera, *floor), frame->index,
-                            floor->signed_distance_m(Eigen::Vector3d::Zero()));
+    CoarseCloud const coarse = coarse_cloud(frame->cloud_camera);
+    if (std::optional<Plane> const floor = find_floor(coarse)) {
+      return level_by_floor(*floor, coarse, *frame, config.level);
     }
   }
   return level_by_config(frames.empty() ? Frame{} : *frames.front(), config);

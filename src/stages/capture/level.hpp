@@ -29,8 +29,11 @@ Eigen::Vector3d up_of_camera(double pitch_rad, double roll_rad);
 Se3 given_camera(PoseConfig const& config);
 
 /// Finds the level from the first frames of a run (method: the large near-horizontal plane with
-/// nothing beneath it). LevelMode::kOff gives the identity with floor_found = true;
-/// LevelMode::kGiven puts the first of them where the config says, also with floor_found = true.
+/// nothing beneath it). A source in which that floor leans no more than one frame's floor may be
+/// wrong by (floor_lean.hpp) is level as it is and is not turned; nor shifted, if its z = 0 may be
+/// the floor, unless LevelMode::kByFloor says so. LevelMode::kOff gives the identity with
+/// floor_found = true; LevelMode::kGiven puts the first of them where the config says, also with
+/// floor_found = true.
 WorldLevel find_level(std::span<FramePtr const> frames, PoseConfig const& config);
 
 }  // namespace credo

@@ -81,13 +81,15 @@ std::vector<Pair> pairs_of(BeliefState const& seen,
 }
 
 ObjectObservation observation_of(ObjectBelief const& object, Pair const& pair,
-                                 PoseDistribution const& pose_world, ObjectModels const& models) {
+                                 Detection const& detection, PoseDistribution const& pose_world,
+                                 ObjectModels const& models) {
   ObjectObservation observation;
   observation.label = static_cast<LabelCode>(kFirstObject + pair.object);
   observation.object = pair.object;
   observation.object_id = object.id;
   observation.type = object.type;
   observation.pose_world = pose_world;
+  observation.errors_repeat = detection.errors_repeat;
   observation.symmetry = symmetry_of(object, models);
   return observation;
 }
@@ -95,8 +97,11 @@ ObjectObservation observation_of(ObjectBelief const& object, Pair const& pair,
 /// `nearest`: to the nearest object, if any has its type.
 RefusedDetection refusal_of(Detection const& detection, PoseDistribution const& pose_world,
                             Pair const* nearest, BeliefState const& seen, Gate const& gate) {
-  RefusedDetection refused{detection.type, "", pose_world, std::numeric_limits<double>::infinity(),
-                           0.0};
+  RefusedDetection refused;
+  refused.type = detection.type;
+  refused.pose_world = pose_world;
+  refused.errors_repeat = detection.errors_repeat;
+  refused.squared_distance = std::numeric_limits<double>::infinity();
   if (nearest != nullptr) {
     refused.object_id = seen.objects[nearest->object].id;
     refused.squared_distance = nearest->match.squared_distance;
@@ -154,8 +159,9 @@ Segmentation match_detections(Segmentation segmentation, BeliefState const& seen
   }
   for (Pair const* pair : of_object) {
     if (pair != nullptr) {
-      segmentation.objects.push_back(
-          observation_of(seen.objects[pair->object], *pair, poses_world[pair->detection], models));
+      segmentation.objects.push_back(observation_of(seen.objects[pair->object], *pair,
+                                                    detections[pair->detection],
+                                                    poses_world[pair->detection], models));
     }
   }
   for (std::size_t d = 0; d < detections.size(); ++d) {

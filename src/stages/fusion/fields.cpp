@@ -126,10 +126,6 @@ FieldList fields(StuffFusionConfig& config) {
        {0, 1},
        "m",
        "ICP has converged when it moves no point by more"},
-      choice("score", config.score, {"mean", "sum"},
-             "what decides between clusters: mean of the squared distances after ICP, both ways "
-             "together, "
-             "best pair first; or their sum, each the other's best"),
       {"max_rms_m",
        &config.max_rms_m,
        {0, 10},

@@ -67,16 +67,6 @@ struct WallFusionConfig {
 };
 FieldList fields(WallFusionConfig& config);
 
-/// What decides which cluster of a frame is which of the belief.
-enum class StuffScore : std::uint8_t {
-  /// The mean of the squared distances, so that large clusters are not at a disadvantage, from each
-  /// to the other together; the best pair first, then the best of what is left. A fragment lies on
-  /// the whole as well as the whole does, but the whole does not lie on the fragment.
-  kMean,
-  /// The sum of the squared distances; those that are each the other's best (thesis 4.3).
-  kSum,
-};
-
 /// When a cluster is a thing that the belief holds, and what is kept of it, by the thesis' rule
 /// (4.3, algorithm 6).
 struct StuffFusionConfig {
@@ -88,7 +78,6 @@ struct StuffFusionConfig {
   double point_spacing_m = 0.02;
   int max_icp_iterations = 10;
   double min_icp_step_m = 1e-3;
-  StuffScore score = StuffScore::kMean;
   /// Limits to what ICP may do to call two clusters the same; 0 for none. Half the spacing of the
   /// thinned points is added to the RMS: two samples of one surface differ by that much.
   double max_rms_m = 0.03;

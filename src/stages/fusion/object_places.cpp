@@ -26,19 +26,15 @@ bool is_same_place(PoseDistribution const& a, PoseDistribution const& b, Symmetr
 }
 
 /// What was found there before is found again, or found for the first time.
-OtherPlace found(std::optional<OtherPlace> const& before, PoseDistribution const& pose_world,
-                 Look const& now, Symmetry const& symmetry, FusionConfig const& config) {
-  if (!before || !is_same_place(before->pose_world, pose_world, symmetry)) {
-    return {pose_world, kFoundOnce, now};
+OtherPlace found(std::optional<OtherPlace> const& before, FoundPose const& found, Look const& now,
+                 Symmetry const& symmetry, FusionConfig const& config) {
+  if (!before || !is_same_place(before->pose_world, found.pose_world, symmetry)) {
+    return {found.pose_world, kFoundOnce, now};
   }
-  double const news =
-      novelty(view_change(before->last_seen, now), pose_world.mean.translation(), config.existence);
+  double const news = novelty(view_change(before->last_seen, now),
+                              found.pose_world.mean.translation(), config.existence);
   OtherPlace place = *before;
-  if (news > 0.0) {
-    place.pose_world =
-        updated_pose(place.pose_world, pose_world, symmetry,
-                     {.weight = news, .min_covariance_share = config.objects.min_covariance_share});
-  }
+  place.pose_world = pose_after(place.pose_world, found, news, symmetry, config.objects);
   place.log_odds =
       updated_log_odds(place.log_odds, Evidence::kSeen, Evidence::kSeen, news, config.existence);
   place.last_seen = now;
@@ -89,6 +85,15 @@ void go_there(ObjectBelief& object, OtherPlace const& place) {
 
 }  // namespace
 
+PoseDistribution pose_after(PoseDistribution const& before, FoundPose const& found, double news,
+                            Symmetry const& symmetry, ObjectFusionConfig const& config) {
+  PoseUpdate const update =
+      found.errors_repeat
+          ? PoseUpdate{.weight = news, .min_covariance_share = config.min_covariance_share}
+          : PoseUpdate{};
+  return update.weight > 0.0 ? updated_pose(before, found.pose_world, symmetry, update) : before;
+}
+
 std::vector<ObjectBelief> moved_objects(std::vector<ObjectBelief> objects,
                                         Segmentation const& segmentation,
                                         KnownSurfaces const& surfaces, FusionConfig const& config) {
@@ -112,8 +117,9 @@ std::vector<ObjectBelief> moved_objects(std::vector<ObjectBelief> objects,
         detection_for(objects[i], before[i], segmentation.refused, taken, symmetry);
     if (detection) {
       taken[*detection] = true;
+      RefusedDetection const& there = segmentation.refused[*detection];
       objects[i].other_place =
-          found(before[i], segmentation.refused[*detection].pose_world, now, symmetry, config);
+          found(before[i], {there.pose_world, there.errors_repeat}, now, symmetry, config);
     }
   }
   for (ObjectBelief& object : objects) {

@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "geometry/pose_fusion.hpp"
 #include "stages/fusion/object_looks.hpp"
 #include "stages/fusion/object_places.hpp"
 #include "stages/fusion/stuff_findings.hpp"
@@ -18,11 +17,9 @@ void see(ObjectBelief& object, ObjectObservation const& observation,
   Look const look{segmentation.stamp_ns, segmentation.T_world_camera.translation()};
   ViewChange const since = object.last_seen ? view_change(*object.last_seen, look) : ViewChange{};
   double const news = novelty(since, object.pose_world.mean.translation(), config.existence);
-  if (news > 0.0) {
-    object.pose_world =
-        updated_pose(object.pose_world, observation.pose_world, observation.symmetry,
-                     {.weight = news, .min_covariance_share = config.objects.min_covariance_share});
-  }
+  object.pose_world =
+      pose_after(object.pose_world, {observation.pose_world, observation.errors_repeat}, news,
+                 observation.symmetry, config.objects);
   object.last_seen = look;
   object.evidence = Evidence::kSeen;
   if (observation.pixel_count > 0) {

@@ -246,7 +246,7 @@ private:
         continue;
       }
       if (!item.label && shows_known(j)) {
-        if (shows_as_known(item, news_[j])) {
+        if (shows_enough(j) && shows_as_known(item, news_[j])) {
           forget(item);
         }
       } else if (std::optional<std::size_t> const host = host_of(j)) {

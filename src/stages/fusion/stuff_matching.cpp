@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
-#include <tuple>
 #include <utility>
 
 #include "geometry/icp.hpp"
@@ -81,8 +80,7 @@ std::optional<double> score(Sample const& source, Sample const& target,
   if (!alignment) {
     return std::nullopt;
   }
-  return config.score == StuffScore::kSum ? alignment->sum_squared_m2
-                                          : alignment->rms_m * alignment->rms_m;
+  return alignment->sum_squared_m2;
 }
 
 /// Both ways, or none. The larger cluster goes first: where the two are not the same thing, it is
@@ -127,24 +125,6 @@ Matches best_of_each_other(std::vector<Pair> const& pairs, std::size_t known_cou
   return matches;
 }
 
-/// The pairs that fit best, both ways together, before others. A fragment lies on the whole as well
-/// as the whole does, but the whole does not lie on the fragment.
-Matches best_first(std::vector<Pair> pairs, std::size_t known_count,
-                   std::span<StuffCluster const> seen) {
-  std::ranges::sort(pairs, {}, [&](Pair const& pair) {
-    return std::tuple(*pair.seen_to_known + *pair.known_to_seen, pair.known, seen[pair.seen].label);
-  });
-  Matches matches(known_count);
-  std::vector<bool> is_taken(seen.size(), false);
-  for (Pair const& pair : pairs) {
-    if (!matches[pair.known] && !is_taken[pair.seen]) {
-      matches[pair.known] = pair.seen;
-      is_taken[pair.seen] = true;
-    }
-  }
-  return matches;
-}
-
 }  // namespace
 
 std::vector<std::optional<std::size_t>> match_clusters(std::span<StuffCluster const* const> known,
@@ -173,8 +153,7 @@ std::vector<std::optional<std::size_t>> match_clusters(std::span<StuffCluster co
   });
 
   std::erase_if(pairs, [](Pair const& pair) { return !pair.aligned(); });
-  return config.score == StuffScore::kSum ? best_of_each_other(pairs, known.size(), seen)
-                                          : best_first(std::move(pairs), known.size(), seen);
+  return best_of_each_other(pairs, known.size(), seen);
 }
 
 }  // namespace credo

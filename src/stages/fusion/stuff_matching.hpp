@@ -13,14 +13,12 @@ namespace credo {
 /// For each known cluster, the position of the seen one that is the same thing, or none (thesis
 /// algorithm 6). No cluster is matched twice.
 ///
-/// Pairs whose bounding boxes overlap are aligned by ICP both ways. By the mean the pair that fits
-/// best, both ways together, matches first, then the best of what is left; ties: the earlier known
-/// cluster, the seen one of the lower label. By the sum, a known and a seen cluster match when, of
-/// all seen clusters as the source, this one fits the known one best, and of all known clusters as
-/// the source, this one fits the seen one best; ties: the seen cluster of the lower label, the
-/// earlier known one. With limits to RMS and displacement, a pair must hold them
-/// both ways: a small cluster always lies well within a large one, but not the large one within the
-/// small.
+/// Pairs whose bounding boxes overlap are aligned by ICP both ways. A known and a seen cluster
+/// match when, by the sum of the squared distances, of all seen clusters as the source this one
+/// fits the known one best, and of all known clusters as the source this one fits the seen one
+/// best; ties: the seen cluster of the lower label, the earlier known one. With limits to RMS and
+/// displacement, a pair must hold them both ways: a small cluster always lies well within a large
+/// one, but not the large one within the small.
 [[nodiscard]] std::vector<std::optional<std::size_t>> match_clusters(
     std::span<StuffCluster const* const> known, std::span<StuffCluster const> seen,
     StuffFusionConfig const& config);

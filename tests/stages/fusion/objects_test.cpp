@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <utility>
 #include <vector>
 
+#include "geometry/pose_fusion.hpp"
 #include "stages/fusion/scenes.hpp"
 
 namespace credo::test {
@@ -121,6 +123,39 @@ TEST(FusedObjects, ThereIsAnEndToCertainty) {
   double const least = kNoise_m * std::sqrt(config.objects.min_covariance_share);
   EXPECT_NEAR(deviation_after(300, 1.0, config), least, 1e-6);
   EXPECT_NEAR(deviation_after(3000, 0.0, config), least, 1e-4);
+}
+
+/// Mean squared Mahalanobis distance of the true pose after so many frames from one place, over 200
+/// boxes, whose detections err as they tell, each by itself.
+double mean_nees(int frames, bool errors_repeat) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal(0.0, kNoise_m);
+  Se3 const truth(Eigen::Quaterniond::Identity(), {2, 0, 1});
+  double sum = 0.0;
+  for (int box = 0; box < 200; ++box) {
+    BeliefState belief = one_box();
+    for (int i = 0; i < frames; ++i) {
+      Segmentation segmentation = look(i, true, 0.0);
+      Vector6d const error = Vector6d::NullaryExpr([&] { return normal(random); });
+      segmentation.objects[0].pose_world.mean = boxplus(truth, error);
+      segmentation.objects[0].errors_repeat = errors_repeat;
+      belief = fuse(std::move(belief), segmentation, {});
+    }
+    PoseDistribution const& pose = belief.objects[0].pose_world;
+    sum += match_pose(pose, {truth, Matrix6d::Zero()}, {}).squared_distance;
+  }
+  return sum / 200.0;
+}
+
+// 95 of 100 means of 200 honest claims lie between 5.5 and 6.5. Who does not know that errors are
+// drawn anew has to claim less.
+TEST(FusedObjects, ErrorsThatAreDrawnAnewAverageOut) {
+  for (int const frames : {2, 30, 100}) {
+    double const nees = mean_nees(frames, false);
+    EXPECT_GT(nees, 5.5) << frames;
+    EXPECT_LT(nees, 6.5) << frames;
+  }
+  EXPECT_LT(mean_nees(30, true), 3.0);
 }
 
 // A miss of what is believed in says little; what is believed to be gone may be anywhere within

@@ -24,7 +24,6 @@ FusionConfig thesis_config() {
   config.walls.segment_trim_ratio = 0.0;
   config.walls.merge_known = false;
   config.visibility = false;
-  config.stuff.score = StuffScore::kSum;
   config.stuff.max_rms_m = 0.0;
   config.stuff.max_displacement_m = 0.0;
   return config;

@@ -261,6 +261,19 @@ TEST_P(KnownByNow, WhatShowsAsSuchForLongWasThat) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, KnownByNow, testing::Values(kFloor, kFirstWall, kFirstObject + 2));
 
+// A door, say, of which a strip at the image's edge is taken for its wall.
+TEST(StuffItems, WhatIsHardlyInViewIsNotTakenForAWall) {
+  Room room;
+  Board door{kFirst, 0.0, 0.0, 0.6, 0.4};
+  room.show({.boards = {door}}, 60);
+  door.label = kFirstWall;
+  // The view ends 0.8 m to the left of its middle: 9 cm of the door are in it.
+  room.show({.boards = {door}, .x_m = 1.31}, 40);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
+  room.show({.boards = {door}}, 50);
+  EXPECT_TRUE(room.stuff().empty());
+}
+
 /// A thing at 1.5 m, and then 50 frames that call it floor, or a wall, in a plane that far away.
 FusedStuff shown_as_known(LabelCode label, double plane_z_m) {
   FusedStuff stuff;
