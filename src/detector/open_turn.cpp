@@ -19,7 +19,7 @@
 namespace credo {
 namespace {
 
-constexpr double kPlain_rad = 0.025;
+constexpr double kPlain_rad = 0.02;
 constexpr double kStep_rad = std::numbers::pi / 18.0;
 constexpr int kMostSteps = 18;  // of half a turn
 /// What verification finds so much less likely is not followed on.

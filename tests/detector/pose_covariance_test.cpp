@@ -61,6 +61,18 @@ TEST(PoseCovariance, OfWhatIsSeenWellIsSmall) {
   EXPECT_GT(shift_m(told, ray), 0.0003);
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_LT(std::sqrt(told.covariance(axis + 3, axis + 3)), 0.1);
+    EXPECT_GT(std::sqrt(told.covariance(axis + 3, axis + 3)), 0.002)
+        << "errors that all points have in common do not average out";
+  }
+}
+
+TEST(PoseCovariance, WhatFitsPoorlyTellsLess) {
+  BracketView const view = bracket_alone(some_rotation(), {SensorModel::kDisparity});
+  PoseDistribution const right = with_covariance(prepared_bracket(), view.scene, view.truth);
+  CameraPose const off = perturbed(prepared_bracket(), view.truth, {0, 0, 0.006F}, {0, 0, 0});
+  PoseDistribution const poor = with_covariance(prepared_bracket(), view.scene, off);
+  for (int axis = 0; axis < 6; ++axis) {
+    EXPECT_GT(poor.covariance(axis, axis), 1.3 * right.covariance(axis, axis)) << axis;
   }
 }
 
