@@ -67,11 +67,12 @@ struct RefusedDetection {
   /// The object of that type to which it is nearest; empty where there is none.
   std::string object_id;
   PoseDistribution pose_world;
-  bool errors_repeat = true;
   /// Squared Mahalanobis distance to that object's pose distribution, and the most that the gate
   /// lets pass. Within the gate it was refused because another detection fits better.
   double squared_distance = 0.0;
   double max_squared_distance = 0.0;
+  /// As Detection has it.
+  bool errors_repeat = true;
 };
 
 /// A cluster of points that is neither floor, wall nor known object (thesis 3.3).
