@@ -192,7 +192,7 @@ TEST_F(BadRecordings, AConfigWithEveryKindOfFault) {
             "credo: /a.yaml:3:3: normals.max_depth_jump_m = 2.0: must be in [0, 1] m\n"
             "credo: /a.yaml:5:3: planes.max_planes = many: must be a whole number\n"
             "credo: /a.yaml:6:3: duplicate key planes.max_planes\n"
-            "credo: /a.yaml:7:8: pose.level = maybe: must be one of off, auto, given\n");
+            "credo: /a.yaml:7:8: pose.level = maybe: must be one of off, auto, given, floor\n");
 }
 
 TEST_F(BadRecordings, AConfigThatIsNotThere) {
