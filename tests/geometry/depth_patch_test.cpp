@@ -2,6 +2,7 @@
 #include "geometry/depth_patch.hpp"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <algorithm>
 #include <array>
@@ -104,10 +105,8 @@ int expect_equal(Mesh const& mesh, DepthPatch const& patch) {
   return hits;
 }
 
-class RandomTriangles : public ::testing::TestWithParam<unsigned> {};
-
-TEST_P(RandomTriangles, AreAsDeepAsTheirRays) {
-  std::mt19937 random(GetParam());
+Mesh random_triangles(unsigned seed) {
+  std::mt19937 random(seed);
   std::uniform_real_distribution<float> aside(-1.2F, 1.2F);
   std::uniform_real_distribution<float> ahead(0.0F, 3.0F);
   Mesh mesh;
@@ -119,7 +118,29 @@ TEST_P(RandomTriangles, AreAsDeepAsTheirRays) {
     };
     mesh.add(corner(), corner(), corner());
   }
+  return mesh;
+}
+
+class RandomTriangles : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(RandomTriangles, AreAsDeepAsTheirRays) {
+  Mesh const mesh = random_triangles(GetParam());
   EXPECT_GT(expect_equal(mesh, rendered(mesh)), 500);
+}
+
+TEST_P(RandomTriangles, AreTheSameToTheBitOnEveryInstructionSet) {
+  Mesh const mesh = random_triangles(GetParam());
+  DepthPatch const expected = rendered(mesh);
+  for (std::int64_t const target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    DepthPatch const patch = rendered(mesh);
+    EXPECT_EQ(patch.corner, expected.corner);
+    EXPECT_TRUE(std::ranges::equal(patch.depth_m, expected.depth_m));
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomTriangles, ::testing::Values(1U, 2U, 3U, 4U, 5U, 6U));
