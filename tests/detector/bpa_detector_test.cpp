@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <thread>
@@ -95,6 +96,20 @@ TEST(BpaDetector, FindsWhatIsWhereItIsExpected) {
   ASSERT_EQ(answers.size(), 1U);
   expect_at(answers[0], truth_from());
   EXPECT_EQ(detector.detect(*desk_frame(), {request(expected)}).size(), 1U);
+}
+
+TEST(BpaDetector, TellsTheWayRoundThatLiesNearest) {
+  Eigen::Quaterniond const half_turn(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  Se3 const T_world_box = placed_at({0.02, 0.03, 0}, 0.3);
+  std::vector<Placed> things = desk_and_floor();
+  things.push_back({nearly_symmetric_box(), T_world_box});
+  Se3 const truth = before_desk().inverse() * T_world_box;
+  BpaDetector detector({{"box", nearly_symmetric_box()}}, config_of(ObjectSearch::kTracked));
+  std::vector<Detection> const found =
+      detector.detect(*frame_of(things, before_desk(), {SensorModel::kGaussian}),
+                      {request(truth * Se3(half_turn, Eigen::Vector3d::Zero()), "box")});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_LT(boxminus(truth, found[0].pose_camera.mean).norm(), 0.02);
 }
 
 TEST(BpaDetector, FindsWhatIsAnywhere) {

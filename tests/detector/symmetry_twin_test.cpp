@@ -15,16 +15,6 @@ using Eigen::Vector3d;
 
 Eigen::Quaterniond const kHalfTurn(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitZ()));
 
-/// A box that passes for one whose half turn is a symmetry, though one half of its top is higher.
-ObjectModel nearly_symmetric_box() {
-  Symmetry symmetry;
-  symmetry.rotations = {kHalfTurn};
-  return {"box",
-          std::vector<Solid>{BoxSolid{{-0.09, -0.05, 0.0}, {0.09, 0.05, 0.06}},
-                             BoxSolid{{0.0, -0.05, 0.06}, {0.09, 0.05, 0.068}}},
-          symmetry};
-}
-
 struct Look {
   SearchModel model;
   SearchScene scene;

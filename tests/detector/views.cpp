@@ -58,6 +58,15 @@ ObjectModel crate(Vector3d const& size_m) {
   return {"crate", std::vector<Solid>{box_on_base(size_m)}, symmetry};
 }
 
+ObjectModel nearly_symmetric_box() {
+  Symmetry symmetry;
+  symmetry.rotations = {Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitZ()))};
+  return {"box",
+          std::vector<Solid>{BoxSolid{{-0.09, -0.05, 0.0}, {0.09, 0.05, 0.06}},
+                             BoxSolid{{0.0, -0.05, 0.06}, {0.09, 0.05, 0.068}}},
+          symmetry};
+}
+
 ObjectModel can(double radius_m, double height_m) {
   Symmetry symmetry;
   symmetry.axis = SymmetryAxis{};

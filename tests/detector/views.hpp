@@ -19,6 +19,8 @@ namespace credo::test {
 ObjectModel bracket();
 /// A box that stands on the centre of its base; its half turns are symmetries.
 ObjectModel crate(Eigen::Vector3d const& size_m);
+/// A box that passes for one whose half turn is a symmetry, though one half of its top is higher.
+ObjectModel nearly_symmetric_box();
 /// A cylinder, symmetric about its axis.
 ObjectModel can(double radius_m, double height_m);
 
