@@ -7,7 +7,6 @@
 namespace credo {
 namespace {
 
-constexpr RefinementConfig kRefinement = {8, 800, 0.012F};
 /// What is so unlikely is not worth the work.
 constexpr float kLeastLogOdds = -8.0F;
 
@@ -17,7 +16,7 @@ PoseCandidate polished(SearchModel const& model, SearchScene const& scene, PoseC
   if (rough.verification.log_odds < kLeastLogOdds) {
     return rough;
   }
-  CameraPose const moved = refined(model, scene, rough.pose, kRefinement);
+  CameraPose const moved = refined(model, scene, rough.pose, kFinestRefinement);
   PoseCandidate fine{moved, verified(model, scene, moved, {})};
   return fine.verification.log_odds > rough.verification.log_odds ? std::move(fine)
                                                                   : std::move(rough);

@@ -16,6 +16,9 @@ struct RefinementConfig {
   float gate_m = 0.02F;
 };
 
+/// The last, of a pose that is nearly right.
+inline constexpr RefinementConfig kFinestRefinement = {8, 800, 0.012F};
+
 /// A pose moved to where the scene's surface is: point-to-plane ICP along the model's normals
 /// (Chen and Medioni 1992) with projective association and Cauchy weights. What lies on a plane
 /// larger than the model does not count, nor where normals differ by more than 60 degrees. With

@@ -7,7 +7,6 @@
 namespace credo {
 namespace {
 
-constexpr RefinementConfig kRefinement = {8, 800, 0.012F};
 constexpr double kNearer = 0.9;
 
 std::vector<CameraPose> twins_of(Symmetry const& symmetry, CameraPose const& pose) {
@@ -30,12 +29,12 @@ CameraPose best_twin(SearchModel const& model, SearchScene const& scene, CameraP
   if (twins.empty()) {
     return pose;
   }
-  PoseEvidence const told = evidence_of(model, scene, pose, kRefinement.points);
+  PoseEvidence const told = evidence_of(model, scene, pose, kFinestRefinement.points);
   CameraPose best = pose;
   double least = kNearer * told.mean_squared_residual;
   for (CameraPose const& twin : twins) {
-    CameraPose const moved = refined(model, scene, twin, kRefinement);
-    PoseEvidence const evidence = evidence_of(model, scene, moved, kRefinement.points);
+    CameraPose const moved = refined(model, scene, twin, kFinestRefinement);
+    PoseEvidence const evidence = evidence_of(model, scene, moved, kFinestRefinement.points);
     // What lies on the scene with fewer points may lie nearer for that.
     bool const lies_as_well = 10 * evidence.points >= 9 * told.points;
     if (evidence.points > 0 && lies_as_well && evidence.mean_squared_residual < least) {
