@@ -30,6 +30,8 @@ constexpr std::size_t kMostOtherTurns = 6;
 constexpr std::size_t kScorePoints = 250;
 /// A turn is open where what explains the frame spreads so far.
 constexpr double kLeastSpread_rad = 0.15;
+/// The line that is told to be the loosest leans against that about which all turns fit.
+constexpr double kHingeLean = 0.03;
 
 /// A turn about a line that is fixed in the camera frame.
 struct Hinge {
@@ -43,10 +45,11 @@ struct Hinge {
     Eigen::Vector3f const on_line = point_m.cast<float>();
     return {turn * pose.rotation, turn * (pose.translation_m - on_line) + on_line};
   }
-  /// Of the origin and the rotation, by a small turn.
-  [[nodiscard]] Vector6d motion_of(CameraPose const& pose) const {
+  /// Of the origin and the rotation, by a turn of any size.
+  [[nodiscard]] Vector6d motion_of(CameraPose const& pose, double angle_rad) const {
+    Eigen::Vector3d const off_line = pose.translation_m.cast<double>() - point_m;
     Vector6d motion;
-    motion << direction.cross(pose.translation_m.cast<double>() - point_m), direction;
+    motion << Eigen::AngleAxisd(angle_rad, direction) * off_line - off_line, angle_rad * direction;
     return motion;
   }
 };
@@ -89,29 +92,35 @@ void follow(SearchModel const& model, SearchScene const& scene, CameraPose const
   }
 }
 
-/// Of all that was followed, mean and standard deviation, each as likely as it is beside the
-/// others.
-struct Spread {
-  double mean_rad = 0.0;
-  double deviation_rad = 0.0;
-};
-Spread spread_of(std::vector<Turned> const& turns) {
+/// Of all that was followed, each as likely as it is beside the others; they sum to 1.
+std::vector<double> likelihoods_of(std::vector<Turned> const& turns) {
   int most_net_px = 0;
   for (Turned const& turned : turns) {
     most_net_px = std::max(most_net_px, turned.verification.net_px());
   }
-  double weights = 0.0;
-  double sum_rad = 0.0;
-  double squares_rad2 = 0.0;
+  std::vector<double> likelihoods;
+  double sum = 0.0;
   for (Turned const& turned : turns) {
-    double const weight =
-        std::exp(static_cast<double>(log_odds_beside(turned.verification, most_net_px)));
-    weights += weight;
-    sum_rad += weight * turned.angle_rad;
-    squares_rad2 += weight * turned.angle_rad * turned.angle_rad;
+    likelihoods.push_back(
+        std::exp(static_cast<double>(log_odds_beside(turned.verification, most_net_px))));
+    sum += likelihoods.back();
   }
-  double const mean_rad = sum_rad / weights;
-  return {mean_rad, std::sqrt(std::max(0.0, squares_rad2 / weights - mean_rad * mean_rad))};
+  for (double& likelihood : likelihoods) {
+    likelihood /= sum;
+  }
+  return likelihoods;
+}
+
+/// By how much a pose may be off for that the line leans, for each radian turned about it.
+Matrix6d leaning(Hinge const& hinge, CameraPose const& pose) {
+  Eigen::Vector3d const off_line = pose.translation_m.cast<double>() - hinge.point_m;
+  Matrix6d covariance = Matrix6d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    Vector6d lean;
+    lean << Eigen::Vector3d::Unit(axis).cross(off_line), Eigen::Vector3d::Unit(axis);
+    covariance += kHingeLean * kHingeLean * lean * lean.transpose();
+  }
+  return covariance;
 }
 
 }  // namespace
@@ -129,12 +138,24 @@ OpenTurn open_turn(SearchModel const& model, SearchScene const& scene, CameraPos
   }
   follow(model, scene, pose, *hinge, kStep_rad, turns);
   follow(model, scene, pose, *hinge, -kStep_rad, turns);
-  Spread const spread = spread_of(turns);
-  if (spread.deviation_rad < kLeastSpread_rad) {
+  std::vector<double> const likelihoods = likelihoods_of(turns);
+  double mean_rad = 0.0;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    mean_rad += likelihoods[i] * turns[i].angle_rad;
+  }
+  double variance_rad2 = 0.0;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    variance_rad2 += likelihoods[i] * std::pow(turns[i].angle_rad - mean_rad, 2);
+  }
+  if (variance_rad2 < kLeastSpread_rad * kLeastSpread_rad) {
     return open;
   }
-  open.pose = hinge->turned(pose, spread.mean_rad);
-  open.deviation = spread.deviation_rad * hinge->motion_of(open.pose);
+  open.pose = hinge->turned(pose, mean_rad);
+  open.covariance = variance_rad2 * leaning(*hinge, open.pose);
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    Vector6d const motion = hinge->motion_of(open.pose, turns[i].angle_rad - mean_rad);
+    open.covariance += likelihoods[i] * motion * motion.transpose();
+  }
   return open;
 }
 

@@ -15,14 +15,15 @@ namespace credo {
 struct OpenTurn {
   /// Amid all turns that explain the frame about as well.
   CameraPose pose;
-  /// How far they spread to either side of it, one standard deviation, as boxplus takes it in the
-  /// camera frame; 0 where only one turn does.
-  Vector6d deviation = Vector6d::Zero();
+  /// How they spread about it, as boxplus takes it in the camera frame, each as likely as it is
+  /// beside the others: along an arc, for the line that they turn about lies beside the model's
+  /// origin, and about a line that is itself not known exactly. 0 where only one turn does.
+  Matrix6d covariance = Matrix6d::Zero();
 };
 
 /// Follows the turn that the frame tells least of, by `information` (of boxplus errors at the
 /// model's origin, camera frame, positive definite), from the pose on to both sides as long as
-/// verification takes it for about as likely. A turn that is told to two degrees is not followed,
+/// verification takes it for about as likely. A turn that is told to 0.02 radians is not followed,
 /// nor any of a model with a symmetry axis: there it changes nothing.
 [[nodiscard]] OpenTurn open_turn(SearchModel const& model, SearchScene const& scene,
                                  CameraPose const& pose, Matrix6d const& information);

@@ -26,16 +26,4 @@ inline constexpr RefinementConfig kFinestRefinement = {8, 800, 0.012F};
 [[nodiscard]] CameraPose refined(SearchModel const& model, SearchScene const& scene,
                                  CameraPose const& pose, RefinementConfig const& config);
 
-/// What the scene says about small errors of a pose (boxplus in the camera frame, at the model's
-/// origin): the information of all points that count, one deviation of each by the sensor's noise.
-struct PoseEvidence {
-  Matrix6d information = Matrix6d::Zero();
-  /// Points that count.
-  int points = 0;
-  /// Of the residuals, in their deviations, squared.
-  double mean_squared_residual = 0.0;
-};
-[[nodiscard]] PoseEvidence evidence_of(SearchModel const& model, SearchScene const& scene,
-                                       CameraPose const& pose, std::size_t points);
-
 }  // namespace credo

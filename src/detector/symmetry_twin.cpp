@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "detector/pose_evidence.hpp"
 #include "detector/pose_refinement.hpp"
 
 namespace credo {
@@ -29,12 +30,12 @@ CameraPose best_twin(SearchModel const& model, SearchScene const& scene, CameraP
   if (twins.empty()) {
     return pose;
   }
-  PoseEvidence const told = evidence_of(model, scene, pose, kFinestRefinement.points);
+  PoseEvidence const told = evidence_of(model, scene, pose);
   CameraPose best = pose;
   double least = kNearer * told.mean_squared_residual;
   for (CameraPose const& twin : twins) {
     CameraPose const moved = refined(model, scene, twin, kFinestRefinement);
-    PoseEvidence const evidence = evidence_of(model, scene, moved, kFinestRefinement.points);
+    PoseEvidence const evidence = evidence_of(model, scene, moved);
     // What lies on the scene with fewer points may lie nearer for that.
     bool const lies_as_well = 10 * evidence.points >= 9 * told.points;
     if (evidence.points > 0 && lies_as_well && evidence.mean_squared_residual < least) {

@@ -98,7 +98,7 @@ TEST(OpenTurn, OfARoundThingNoTurnIsLookedFor) {
   view.model.symmetry.axis = SymmetryAxis{};
   CameraPose const pose = camera_pose(view.T_camera_mug);
   Matrix6d const information = Matrix6d::Identity();
-  EXPECT_EQ(open_turn(view.model, view.scene, pose, information).deviation, Vector6d::Zero());
+  EXPECT_EQ(open_turn(view.model, view.scene, pose, information).covariance, Matrix6d::Zero());
   EXPECT_TRUE(other_turns(view.model, view.scene, {pose, {}}, information).empty());
 }
 
