@@ -34,8 +34,8 @@ bool is_where_believed(ObjectSummary const& believed, TrueThing const& thing,
   return (believed.position_m - thing.pose.translation()).norm() <= 0.1;
 }
 
-void ObjectScorer::add_pose(FrameIndex frame, ObjectSummary const& believed,
-                            TrueThing const& thing, TrueModel const* model) {
+void ObjectScorer::add_pose(FrameIndex frame, ObjectSummary const& believed, TrueThing const& thing,
+                            TrueModel const* model) {
   Se3 const pose = pose_of(believed);
   Symmetry const symmetry = model != nullptr ? model->symmetry() : Symmetry{};
   TrueModel::PoseError const error =

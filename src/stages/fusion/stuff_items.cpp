@@ -262,7 +262,8 @@ private:
   /// Kept with the one that was known last, whichever shows in the other.
   [[nodiscard]] bool are_one(std::size_t j, std::size_t host) {
     std::uint32_t const first = known_.stuff[std::min(j, host)].id;
-    return shows_as_one(known_.stuff[std::max(j, host)], first, news_[j]);
+    return shows_as_one(known_.stuff[std::max(j, host)], first,
+                        news_[j] * counts_as_one(look(j).blocks));
   }
 
   /// Of a thing that is hardly in view nothing is learnt about what it is one with.
