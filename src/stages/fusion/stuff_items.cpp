@@ -234,7 +234,8 @@ private:
       explained += share != shares.end() && share->agreement() >= kLeastAgreement ? 1U : 0U;
     }
     return static_cast<double>(explained) <= kExplained * static_cast<double>(seen.blocks.size()) &&
-           places_.share_known(seen.points_world, seen.lies_on < 0) <= kExplained;
+           places_.share_known(seen.points_world, seen.lies_on < 0) <= kExplained &&
+           places_.share_left_behind(seen.points_world) <= kExplained;
   }
 
   /// What shows in another thing's clusters is one with it, what shows as floor, wall or known
