@@ -46,6 +46,16 @@ struct WallScores {
   std::optional<double> endpoint_m;
 };
 
+/// What a frame's belief says of a known object's pose, held against the true one.
+struct PoseClaim {
+  FrameIndex frame{0};
+  std::string object_id;
+  /// Mahalanobis distance of the true pose under the claimed distribution, squared.
+  double squared_error = 0.0;
+  /// Its mean if the claim is honest: 6, or 5 with an axis of symmetry.
+  int degrees_of_freedom = 6;
+};
+
 /// Of the known objects. Errors are means over believed objects at their places, least over the
 /// model's symmetry.
 struct ObjectScores {
@@ -68,6 +78,8 @@ struct ObjectScores {
   std::optional<double> nees_claims;
   std::optional<double> precision;
   std::optional<double> recall;
+  /// All that `nees` is the mean of, by frame.
+  std::vector<PoseClaim> claims;
 
   [[nodiscard]] std::optional<bool> nees_inside() const {
     return nees && nees_low && nees_high ? std::optional(*nees_low <= *nees && *nees <= *nees_high)

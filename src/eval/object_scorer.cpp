@@ -34,7 +34,7 @@ bool is_where_believed(ObjectSummary const& believed, TrueThing const& thing,
   return (believed.position_m - thing.pose.translation()).norm() <= 0.1;
 }
 
-void ObjectScorer::add_pose(ObjectSummary const& believed, TrueThing const& thing,
+void ObjectScorer::add_pose(FrameIndex frame, ObjectSummary const& believed, TrueThing const& thing,
                             TrueModel const* model) {
   Se3 const pose = pose_of(believed);
   Symmetry const symmetry = model != nullptr ? model->symmetry() : Symmetry{};
@@ -51,7 +51,8 @@ void ObjectScorer::add_pose(ObjectSummary const& believed, TrueThing const& thin
         match_pose({pose, believed.covariance}, {thing.pose, Matrix6d::Zero()}, symmetry);
     nees_.add(nees.squared_distance);
     degrees_of_freedom_.add(nees.degrees_of_freedom);
-    claims_.add(believed.id, believed.covariance, nees.degrees_of_freedom);
+    repeated_.add(believed.id, believed.covariance, nees.degrees_of_freedom);
+    claims_.push_back({frame, believed.id, nees.squared_distance, nees.degrees_of_freedom});
   }
 }
 
@@ -79,7 +80,7 @@ void ObjectScorer::add(BeliefSummary const& belief, FrameTruth const& truth,
     }
     recalled.insert(thing->id);
     TrueModel const* const model = model_of(models, thing->type);
-    add_pose(believed, *thing, model);
+    add_pose(belief.frame, believed, *thing, model);
     if (model != nullptr &&
         model->add_s_m(pose_of(believed), thing->pose) < 0.1 * model->diameter_m()) {
       within_tenth.insert(thing->id);
@@ -107,13 +108,14 @@ ObjectScores ObjectScorer::scores() const {
     NeesBounds const bounds = nees_bounds(*scores.nees_expected * count, nees_.count());
     scores.nees_low = bounds.low;
     scores.nees_high = bounds.high;
-    scores.nees_claims = claims_.worth();
+    scores.nees_claims = repeated_.worth();
     NeesBounds const repeated = nees_bounds_of(*scores.nees_expected, *scores.nees_claims);
     scores.nees_repeated_low = repeated.low;
     scores.nees_repeated_high = repeated.high;
   }
   scores.precision = precise_.value();
   scores.recall = recalled_.value();
+  scores.claims = claims_;
   return scores;
 }
 

@@ -33,14 +33,16 @@ public:
   [[nodiscard]] ObjectScores scores() const;
 
 private:
-  void add_pose(ObjectSummary const& believed, TrueThing const& thing, TrueModel const* model);
+  void add_pose(FrameIndex frame, ObjectSummary const& believed, TrueThing const& thing,
+                TrueModel const* model);
 
   std::set<std::string> seen_;
   Mean translation_m_;
   Mean rotation_deg_;
   Mean nees_;
   Mean degrees_of_freedom_;
-  RepeatedClaims claims_;
+  RepeatedClaims repeated_;
+  std::vector<PoseClaim> claims_;
   Mean precise_;
   Mean recalled_;
   Mean within_tenth_;

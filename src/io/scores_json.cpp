@@ -75,6 +75,13 @@ std::string scores_json(Scores const& scores) {
                      {"nees_claims", json_of(objects.nees_claims)},
                      {"precision", json_of(objects.precision)},
                      {"recall", json_of(objects.recall)}};
+  json["objects"]["claims"] = Json::array();
+  for (PoseClaim const& claim : objects.claims) {
+    json["objects"]["claims"].push_back({{"frame", number(claim.frame)},
+                                         {"id", claim.object_id},
+                                         {"squared_error", claim.squared_error},
+                                         {"degrees_of_freedom", claim.degrees_of_freedom}});
+  }
   json["existence"] = {{"ece", nullptr}, {"brier", nullptr}, {"reliability", nullptr}};
   if (scores.existence) {
     json["existence"] = json_of(*scores.existence);

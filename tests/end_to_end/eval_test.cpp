@@ -132,7 +132,16 @@ TEST_F(Eval, TellsWithinWhatAnHonestNeesLies) {
     }
   }
   write_beliefs();
-  EXPECT_EQ(scores()["objects"]["nees_inside"], true);
+  json const spoilt = scores()["objects"];
+  EXPECT_EQ(spoilt["nees_inside"], true);
+  ASSERT_EQ(spoilt["claims"].size(), 6U) << "two objects in three frames";
+  for (std::size_t i = 0; i < 6; ++i) {
+    json const& claim = spoilt["claims"][i];
+    EXPECT_EQ(claim["frame"], i / 2);
+    EXPECT_EQ(claim["id"], beliefs_[0]["objects"][i % 2]["id"]);
+    EXPECT_NEAR(claim["squared_error"], 4.0, 1e-6);
+    EXPECT_EQ(claim["degrees_of_freedom"], 6);
+  }
   EXPECT_NE(text().find("NEES 4.00 (expected 6.00, 95 % within 3.56 to 9.07: inside)"),
             std::string::npos)
       << text();

@@ -300,8 +300,8 @@ Figure in_the_room() {
       "The thesis gives 0.99 where its own rule comes to more than 0.999, and 0.21 for 0.215: it "
       "seems to cut after two digits. Its section 4.2 writes of the intersection of the floor's "
       "points, but only their union grows. What the table's noisy pose leaves over in look 2 "
-      "pales in look 3 with the thesis' numbers, as in its later scenes; by default it goes "
-      "in look 3, where nothing is left over any more.";
+      "pales in look 3 with the thesis' numbers, as in its later scenes; by default it is nothing "
+      "new.";
   return figure;
 }
 

@@ -42,8 +42,9 @@ KnownPlaces::KnownPlaces(BeliefState const& belief, KnownSurfaces const& surface
     if (surface == surfaces.end()) {
       continue;
     }
-    if (object.log_odds > 0.0 && !object.label) {
-      add_known(objects_, surface->second, object.pose_world, object.log_odds);
+    if (object.log_odds > 0.0) {
+      add_known(object.label ? shown_ : objects_, surface->second, object.pose_world,
+                object.log_odds);
     }
     if (object.other_place) {
       add_known(other_places_, surface->second, object.other_place->pose_world,
@@ -75,6 +76,18 @@ double KnownPlaces::share_known(std::span<Eigen::Vector3f const> points_world,
   return points_world.empty()
              ? 0.0
              : static_cast<double>(known) / static_cast<double>(points_world.size());
+}
+
+double KnownPlaces::share_left_behind(std::span<Eigen::Vector3f const> points_world) const {
+  if (shown_.empty() || points_world.empty()) {
+    return 0.0;
+  }
+  auto const left = std::ranges::count_if(points_world, [&](Eigen::Vector3f const& point) {
+    Eigen::Vector3d const p_world = point.cast<double>();
+    return std::ranges::any_of(shown_,
+                               [&](Place const& place) { return is_left_behind(place, p_world); });
+  });
+  return static_cast<double>(left) / static_cast<double>(points_world.size());
 }
 
 double KnownPlaces::share_free_before(std::span<Eigen::Vector3f const> points_world) const {
@@ -115,6 +128,19 @@ bool KnownPlaces::is_at(Place const& place, Eigen::Vector3d const& p_world) cons
   Eigen::Vector3d const p_object = place.T_object_world * p_world;
   return p_object.norm() < place.radius_m + tolerance_m &&
          std::abs(place.shape->distance_to(p_object).distance_m) < tolerance_m;
+}
+
+bool KnownPlaces::is_left_behind(Place const& place, Eigen::Vector3d const& p_world) {
+  // Steeper than 45 degrees.
+  constexpr double kFacesUp = 0.7;
+  Eigen::Vector3d const p_object = place.T_object_world * p_world;
+  double const most_m = 2.0 * place.deviation_m;
+  if (p_object.norm() > place.radius_m + most_m) {
+    return false;
+  }
+  SurfaceDistance const nearest = place.shape->distance_to(p_object);
+  Eigen::Vector3d const facing = place.T_object_world.rotation().conjugate() * nearest.normal;
+  return std::abs(nearest.distance_m) < most_m && facing.z() < kFacesUp;
 }
 
 double KnownPlaces::most_log_odds_at(std::span<Eigen::Vector3f const> points_world) const {

@@ -41,6 +41,10 @@ public:
   /// cabinet a wall seems to lie on it.
   [[nodiscard]] double share_known(std::span<Eigen::Vector3f const> points_world,
                                    bool may_be_object) const;
+  /// The part of the points that a pose which is not quite right has left behind: two deviations of
+  /// an object's place, at most, from where it is believed to have a surface on which nothing can
+  /// lie, as it does not face up. Of objects that the frame shows.
+  [[nodiscard]] double share_left_behind(std::span<Eigen::Vector3f const> points_world) const;
   /// Of the points that the last frame told of, the part that it saw through: what stands there now
   /// came there since. 0 where it told of fewer than 8.
   [[nodiscard]] double share_free_before(std::span<Eigen::Vector3f const> points_world) const;
@@ -63,6 +67,7 @@ private:
   static void add_known(std::vector<Place>& places, KnownSurface const& surface,
                         PoseDistribution const& pose_world, double log_odds);
   [[nodiscard]] bool is_at(Place const& place, Eigen::Vector3d const& p_world) const;
+  [[nodiscard]] static bool is_left_behind(Place const& place, Eigen::Vector3d const& p_world);
   [[nodiscard]] double noise_m(Eigen::Vector3d const& p_world) const;
 
   Eigen::Vector3d camera_world_;
@@ -71,6 +76,8 @@ private:
   std::vector<Strip> walls_;
   std::vector<Place> objects_;
   std::vector<Place> other_places_;
+  /// Those that have a region in the frame.
+  std::vector<Place> shown_;
 };
 
 }  // namespace credo

@@ -234,7 +234,8 @@ private:
       explained += share != shares.end() && share->agreement() >= kLeastAgreement ? 1U : 0U;
     }
     return static_cast<double>(explained) <= kExplained * static_cast<double>(seen.blocks.size()) &&
-           places_.share_known(seen.points_world, seen.lies_on < 0) <= kExplained;
+           places_.share_known(seen.points_world, seen.lies_on < 0) <= kExplained &&
+           places_.share_left_behind(seen.points_world) <= kExplained;
   }
 
   /// What shows in another thing's clusters is one with it, what shows as floor, wall or known
@@ -262,7 +263,8 @@ private:
   /// Kept with the one that was known last, whichever shows in the other.
   [[nodiscard]] bool are_one(std::size_t j, std::size_t host) {
     std::uint32_t const first = known_.stuff[std::min(j, host)].id;
-    return shows_as_one(known_.stuff[std::max(j, host)], first, news_[j]);
+    return shows_as_one(known_.stuff[std::max(j, host)], first,
+                        news_[j] * counts_as_one(look(j).blocks));
   }
 
   /// Of a thing that is hardly in view nothing is learnt about what it is one with.

@@ -1,6 +1,7 @@
 #include "stages/fusion/stuff_one_with.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "stages/fusion/stuff_model.hpp"
 
@@ -13,6 +14,7 @@ constexpr double kEnoughToMerge = 1.4;
 constexpr double kOfOneTogether = 2.5;
 constexpr double kOfOneApart = 0.5;
 constexpr double kLongAlone = 1.0;
+constexpr double kInsideOfLarge = 0.625;
 
 OneWith& entry_of(StuffBelief& item, std::uint32_t id, double at_first) {
   auto const found = std::ranges::find(item.one_with, id, &OneWith::id);
@@ -28,6 +30,13 @@ double total_weight(StuffModel const& model) {
 }
 
 }  // namespace
+
+double counts_as_one(int blocks) {
+  // As if it were a square: of that, what is not at its edge.
+  double const across = std::sqrt(static_cast<double>(blocks));
+  double const inside = std::max(0.0, across - 2.0) / std::max(1.0, across);
+  return std::min(1.0, inside * inside / kInsideOfLarge);
+}
 
 bool shows_as_one(StuffBelief& item, std::uint32_t id, double news) {
   double const points = static_cast<double>(std::max<std::size_t>(item.model->points.size(), 1));

@@ -10,6 +10,11 @@ namespace credo {
 /// Stands for floor, walls and known objects in StuffBelief::one_with; no thing's id.
 inline constexpr std::uint32_t kKnownThings = 0;
 
+/// How much a look says about two being one, of which one shows in so many blocks, in [0, 1]: the
+/// less the smaller it is, for blocks at its edge may be taken for either. What shows in a hundred
+/// counts in full, in 25 by little more than half, in 4 and fewer not at all.
+[[nodiscard]] double counts_as_one(int blocks);
+
 /// Adds a look in which `item` showed in another thing's clusters to what says that the two are
 /// one; whether that is enough. `news` is how much of the look counts (novelty). What showed alone
 /// in many looks before takes longer to become one with another: it begins below nothing.

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "stages/fusion/table_views.hpp"
@@ -115,6 +116,30 @@ TEST(KnownPlaces, FoundOrDisbelievedObjectsExplainNothing) {
   belief.objects[0].log_odds = -1.0;
   EXPECT_FALSE(KnownPlaces(belief, surfaces()).has_object_at({1.0, 0, 0.05}));
   EXPECT_FALSE(KnownPlaces(with_box(1e-4), {}).has_object_at({1.0, 0, 0.05})) << "no model";
+}
+
+// Two centimetres, as the pose is known to one.
+TEST(KnownPlaces, WhatAPoseThatIsNotQuiteRightLeavesBehindIsBesideTheObject) {
+  auto const share_at = [](BeliefState const& belief, std::vector<Eigen::Vector3f> const& points) {
+    return KnownPlaces(belief, surfaces()).share_left_behind(points);
+  };
+  BeliefState belief = with_box(0.01);
+  EXPECT_EQ(share_at(belief, {{0.99F, 0, 0.05F}}), 0.0) << "the frame does not show the box";
+  belief.objects[0].label = kFirstObject;
+  EXPECT_EQ(share_at(belief, {{0.99F, 0, 0.05F}, {0.981F, 0, 0.05F}, {1.01F, 0, 0.05F}}), 1.0);
+  EXPECT_EQ(share_at(belief, {{0.99F, 0, 0.05F}, {0.975F, 0, 0.05F}}), 0.5) << "too far off";
+  EXPECT_EQ(share_at(belief, {{1.1F, 0, 0.105F}}), 0.0) << "may lie on it";
+  EXPECT_EQ(share_at(belief, {{5, 0, 0.05F}}), 0.0);
+  EXPECT_EQ(share_at(belief, {}), 0.0);
+  // On its side: what faced up does not, and a side does.
+  belief.objects[0].pose_world.mean =
+      Se3(Eigen::Quaterniond(Eigen::AngleAxisd(-std::numbers::pi / 2, Eigen::Vector3d::UnitY())),
+          {1.1, 0, 0});
+  EXPECT_EQ(share_at(belief, {{0.99F, 0, 0.05F}}), 1.0);
+  EXPECT_EQ(share_at(belief, {{1.05F, 0, 0.105F}}), 0.0);
+  belief = with_box(0.001);
+  belief.objects[0].label = kFirstObject;
+  EXPECT_EQ(share_at(belief, {{0.99F, 0, 0.05F}}), 0.0) << "its place is well known";
 }
 
 // A pillar: how it is turned about its axis nobody can tell, and it does not matter.

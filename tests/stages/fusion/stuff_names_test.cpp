@@ -9,6 +9,7 @@
 
 #include "stages/fusion/room.hpp"
 #include "stages/fusion/stuff_items.hpp"
+#include "stages/fusion/stuff_one_with.hpp"
 #include "stages/fusion/table_views.hpp"
 
 // Which clusters are one thing, which are two, and what each is called.
@@ -71,6 +72,23 @@ TEST(StuffItems, WhatShowedInTwoForLongStaysTwoForLonger) {
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
   room.show({.boards = {{kFirst}}}, 2);
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
+// Of what is small in the image the segmentation tells less.
+TEST(StuffItems, WhatIsSmallBecomesOneLater) {
+  Room room;
+  Board const left{kFirst, 0.0, 0.0, 0.06, 0.1};
+  Board const right{kSecond, 0.06, 0.0, 0.04, 0.1};
+  room.show({.boards = {left, right}});
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {{kFirst, 0.0, 0.0, 0.1, 0.1}}}, 6);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {{kFirst, 0.0, 0.0, 0.1, 0.1}}}, 30);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+  EXPECT_EQ(counts_as_one(0), 0.0);
+  EXPECT_EQ(counts_as_one(4), 0.0);
+  EXPECT_NEAR(counts_as_one(25), 0.576, 1e-12);
+  EXPECT_EQ(counts_as_one(100), 1.0);
 }
 
 // A segmentation that cannot decide shows one thing; one that errs now and then shows two.
