@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <ranges>
 #include <span>
 #include <utility>
 
@@ -110,10 +109,11 @@ void complete_segments(PlaneView const& view, std::vector<FoundSurface> const& f
       auto const distance_m = [&](std::size_t surface) {
         return std::abs(found[surface].camera.signed_distance_m(p_camera));
       };
-      bool const is_nearest =
-          std::ranges::all_of(std::views::iota(std::size_t{0}, k), [&](std::size_t other) {
-            return !near_to[other].pixels.contains(i) || distance_m(k) <= distance_m(other);
-          });
+      bool is_nearest = true;
+      for (std::size_t other = 0; other < k; ++other) {
+        is_nearest = is_nearest &&
+                     (!near_to[other].pixels.contains(i) || distance_m(k) <= distance_m(other));
+      }
       if (is_nearest) {
         segmentation.labels[i] = found[k].label;
       }
