@@ -24,9 +24,9 @@ struct PixelSampling {
   float focal_px = 0.0F;
 
   /// 1, 2 or 4: of a surface at this depth that faces the camera, every so manieth pixel of every
-  /// so manieth row puts two or more a side into each cell.
+  /// so manieth row puts one and a half or more a side into each cell.
   [[nodiscard]] std::size_t step_px(float depth_m) const {
-    constexpr float kPerCell = 2.0F;
+    constexpr float kPerCell = 1.5F;
     float const spacing_px = focal_px * spacing_m / kPerCell;
     return 4.0F * depth_m <= spacing_px ? 4 : 2.0F * depth_m <= spacing_px ? 2 : 1;
   }

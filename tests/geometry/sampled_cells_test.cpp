@@ -97,11 +97,11 @@ TEST(SampledCells, KeepWhatIsOnePixelWide) {
   EXPECT_GT(sampled_cells(cloud, cable, kSampling, Se3()).cell_count(), 50U);
 }
 
-TEST(SampledCells, HaveTwoOrMorePixelsASideOfWhatFacesTheCamera) {
-  EXPECT_EQ(kSampling.step_px(1.25F), 4U);
-  EXPECT_EQ(kSampling.step_px(1.26F), 2U);
-  EXPECT_EQ(kSampling.step_px(2.5F), 2U);
-  EXPECT_EQ(kSampling.step_px(2.6F), 1U);
+TEST(SampledCells, HaveOneAndAHalfPixelsASideOrMoreOfWhatFacesTheCamera) {
+  EXPECT_EQ(kSampling.step_px(1.66F), 4U);
+  EXPECT_EQ(kSampling.step_px(1.67F), 2U);
+  EXPECT_EQ(kSampling.step_px(3.33F), 2U);
+  EXPECT_EQ(kSampling.step_px(3.34F), 1U);
   EXPECT_EQ((PixelSampling{0.02F, 0.0F}).step_px(0.5F), 1U);
 }
 
