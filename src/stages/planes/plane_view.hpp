@@ -18,8 +18,6 @@ namespace credo {
 struct PlaneView {
   OrganizedCloud const& cloud;
   NormalMap const& normals;
-  /// Of the camera, in pixels.
-  float focal_px;
   Se3 const& T_world_camera;
   /// Else nothing is floor.
   bool floor_at_zero;

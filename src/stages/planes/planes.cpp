@@ -46,10 +46,10 @@ PointList label_pixels(PlaneView const& view, PixelPlane const& plane, LabelCode
   plane.joined.pixels.for_each_run([&](std::size_t begin, std::size_t end) {
     std::fill(labels.data() + begin, labels.data() + end, code);
   });
-  PixelSampling const sampling{static_cast<float>(view.config.point_spacing_m),
-                               view.pieces.empty() ? 0.0F : view.focal_px};
+  // All pixels: what is seen at a grazing angle has none to spare.
+  PixelSampling const all_pixels{static_cast<float>(view.config.point_spacing_m), 0.0F};
   PointList points;
-  sampled_cells(view.cloud, runs, sampling, view.T_world_camera).append_means(0, points);
+  sampled_cells(view.cloud, runs, all_pixels, view.T_world_camera).append_means(0, points);
   return points;
 }
 
@@ -86,7 +86,6 @@ Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmen
                             PlanesConfig const& config) {
   PlaneView const view{frame.cloud_camera,
                        normals,
-                       static_cast<float>(frame.intrinsics.fx_px),
                        segmentation.T_world_camera,
                        segmentation.floor_at_zero,
                        config,

@@ -22,7 +22,6 @@ std::vector<Plane> suggested(Shot const& shot, Segments const& segments, bool fl
   CountedPixels valid = pixels_where(cloud.size(), [&](std::size_t i) { return cloud.valid(i); });
   PlaneView const view{cloud,
                        shot.normals,
-                       static_cast<float>(shot.frame.intrinsics.fx_px),
                        shot.T_world_camera,
                        floor_at_zero,
                        config,
