@@ -314,7 +314,7 @@ LiteralSurfaces literal_surfaces(Grid<float> const& depth_m, LiteralLimits const
 Grid<int> literal_parts(LiteralSurfaces const& surfaces, LiteralLimits const& limits) {
   Grid<int> labels(surfaces.disparity.width(), surfaces.disparity.height());
   begin_parts(surfaces, kThickest, limits.seed_px, labels);
-  for (int level = kThickest - 1; level >= 1; --level) {
+  for (int const level : {2, 1}) {
     grow(surfaces, level, labels);
     begin_parts(surfaces, level, limits.part_px, labels);
   }

@@ -163,10 +163,13 @@ Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals, Segment
     labels = spread_labels(frame.cloud_camera, normals, std::move(labels),
                            static_cast<float>(config.radius_m), config.spread_px);
   }
-  Grid<std::uint8_t> const firm =
-      has_segments ? firm_pixels(frame.cloud_camera.z, labels) : Grid<std::uint8_t>();
-  segmentation.stuff = stuff_clusters(frame.cloud_camera, labels, firm, segmentation.T_world_camera,
-                                      static_cast<float>(config.point_spacing_m));
+  // Of segments, points as many as cells need; the thesis' clusters have all of them.
+  PixelSampling const sampling{static_cast<float>(config.point_spacing_m),
+                               has_segments ? static_cast<float>(frame.intrinsics.fx_px) : 0.0F};
+  segmentation.stuff =
+      stuff_clusters(frame.cloud_camera,
+                     has_segments ? firm_runs(frame.cloud_camera.z, labels) : stuff_runs(labels),
+                     sampling, segmentation.T_world_camera);
   tell_what_lies_on_what(runs, label, segmentation.segments, segmentation.stuff);
   segmentation.segments = {};
   return segmentation;

@@ -31,11 +31,12 @@ FieldList fields(ClusteringConfig& config);
 /// wall or object. Each cluster becomes a StuffCluster and gets a label, kFirstStuff + i by the
 /// first pixel in raster order; should there be more than kMaxStuff, the largest stay.
 ///
-/// Of segments, centroid, bounds and points leave out single pixels that lie apart (firm_pixels).
-/// A StuffCluster stands for all pixels that carry its label in the end: pixel_count is their
-/// number, centroid (within the bounds) and points are theirs. The entries of floor, walls and
-/// objects stay as they came: they count what made them. Nothing to cluster gives no stuff. The
-/// segments go no further.
+/// Of segments, centroid, bounds and points leave out single pixels that lie apart (firm_runs), and
+/// where a large one is close by they are those of every second or fourth pixel of every second or
+/// fourth row (sampled_cells). A StuffCluster stands for all pixels that carry its label in the
+/// end: pixel_count is their number, centroid (within the bounds) and points are theirs. The
+/// entries of floor, walls and objects stay as they came: they count what made them. Nothing to
+/// cluster gives no stuff. The segments go no further.
 ///
 /// Throws std::logic_error where the sizes differ or `segmentation` already holds stuff.
 [[nodiscard]] Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals,

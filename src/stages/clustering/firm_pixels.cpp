@@ -222,29 +222,28 @@ private:
 
 }  // namespace
 
-Grid<std::uint8_t> firm_pixels(Grid<float> const& depth_m, LabelMap const& labels) {
+std::vector<StuffRun> firm_runs(Grid<float> const& depth_m, LabelMap const& labels) {
   if (labels.empty()) {
-    return {labels.width(), labels.height()};
+    return {};
   }
   Pieces const pieces(depth_m, labels);
   std::vector<FirmRun> const& runs = pieces.runs();
   std::vector<std::size_t> const sizes_px = pieces.sizes_px();
-  auto const stuff_of = [&](FirmRun const& run) {
-    return labels[{run.begin, run.v}] - std::size_t{kFirstStuff};
-  };
+  std::vector<StuffRun> result(runs.size());
   std::vector<std::size_t> largest_px(kMaxStuff, 0);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    std::size_t& most_px = largest_px[stuff_of(runs[i])];
+    std::size_t const row = labels.index({0, runs[i].v});
+    result[i].pixels = {row + static_cast<std::size_t>(runs[i].begin),
+                        row + static_cast<std::size_t>(runs[i].end)};
+    result[i].label = labels[result[i].pixels.begin];
+    std::size_t& most_px = largest_px[result[i].label - std::size_t{kFirstStuff}];
     most_px = std::max(most_px, sizes_px[i]);
   }
-  Grid<std::uint8_t> firm(labels.width(), labels.height());
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (kShareOfLargest * sizes_px[i] >= largest_px[stuff_of(runs[i])]) {
-      std::fill_n(firm.row(runs[i].v).begin() + runs[i].begin, runs[i].end - runs[i].begin,
-                  std::uint8_t{1});
-    }
+    result[i].is_firm =
+        kShareOfLargest * sizes_px[i] >= largest_px[result[i].label - std::size_t{kFirstStuff}];
   }
-  return firm;
+  return result;
 }
 
 }  // namespace credo

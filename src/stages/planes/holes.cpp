@@ -44,8 +44,7 @@ struct SegmentsHeld {
   [[nodiscard]] bool mostly(std::size_t segment) const {
     return segment != 0 && explained[segment] >= kMostlyShare * all[segment];
   }
-  [[nodiscard]] bool hardly(std::size_t pixel, std::size_t surface) const {
-    std::size_t const segment = segment_of(pixel);
+  [[nodiscard]] bool hardly(std::size_t segment, std::size_t surface) const {
     return held[segment * surfaces + surface] <= kHardlyShare * all[segment];
   }
 };
@@ -79,47 +78,56 @@ SegmentsHeld segments_held(Segmentation const& segmentation,
   return result;
 }
 
-/// Of the segments that floor and walls hold most of, the rest to the nearest.
+/// Of the segments that floor and walls hold most of, the rest to the nearest; takes it out of what
+/// is unassigned.
 void complete_segments(PlaneView const& view, std::vector<FoundSurface> const& found,
-                       Segmentation& segmentation) {
+                       CountedPixels& unassigned, Segmentation& segmentation) {
   if (found.empty() || segmentation.segments.labels.empty()) {
     return;
   }
   SegmentsHeld const held = segments_held(segmentation, found);
   PlaneTolerance const near = near_tolerance(view.tolerance, 0.0F);
-  Heights const height_m(view);
-  double const max_height_m = view.config.floor_max_height_m;
-  CountedPixels const unassigned =
-      unassigned_pixels(segmentation.labels, segmentation.segments, view.pieces);
   CountedPixels const open = view.pieces.where(
       unassigned.pixels, [&](std::size_t segment) { return held.mostly(segment); });
-  open.pixels.for_each([&](std::size_t i) {
-    auto const too_high = [&] {
-      return max_height_m > 0.0 && std::abs(height_m(i)) > max_height_m;
-    };
-    Eigen::Vector3d const p_camera = view.cloud.at(i).cast<double>();
-    double nearest_m = near.distance_m(view.cloud.z[i]);
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      if (held.hardly(i, k)) {
-        continue;
+  // Most pixels are near to one surface alone.
+  std::vector<CountedPixels> near_to;
+  CountedPixels taken{PixelSet(view.cloud.size()), 0};
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    CountedPixels const asked = view.pieces.where(
+        open.pixels, [&](std::size_t segment) { return !held.hardly(segment, k); });
+    near_to.push_back(inliers_among(view, found[k].camera, asked.pixels, near));
+    if (found[k].label == kFloor) {
+      near_to[k] = low_pixels(view, std::move(near_to[k]));
+    }
+    near_to[k].pixels.for_each([&](std::size_t i) {
+      if (!taken.pixels.contains(i)) {
+        taken.insert(i);
+        segmentation.labels[i] = found[k].label;
+        return;
       }
-      double const distance_m = std::abs(found[k].camera.signed_distance_m(p_camera));
-      if (distance_m <= nearest_m && !(found[k].label == kFloor && too_high())) {
-        nearest_m = distance_m;
+      Eigen::Vector3d const p_camera = view.cloud.at(i).cast<double>();
+      auto const distance_m = [&](std::size_t surface) {
+        return std::abs(found[surface].camera.signed_distance_m(p_camera));
+      };
+      bool is_nearest = true;
+      for (std::size_t other = 0; other < k; ++other) {
+        is_nearest = is_nearest &&
+                     (!near_to[other].pixels.contains(i) || distance_m(k) <= distance_m(other));
+      }
+      if (is_nearest) {
         segmentation.labels[i] = found[k].label;
       }
-    }
-  });
+    });
+  }
+  unassigned.remove(taken);
 }
 
 /// Pixels that all but lie in a plane to the first such.
 void complete_planes(PlaneView const& view, std::vector<FoundSurface> const& found,
-                     Segmentation& segmentation) {
+                     CountedPixels unassigned, Segmentation& segmentation) {
   constexpr float kAllBut = 0.5F;
   PlaneTolerance const close{kAllBut * view.tolerance.fixed_m,
                              kAllBut * view.tolerance.noise_sigmas, 0.0F};
-  CountedPixels unassigned =
-      unassigned_pixels(segmentation.labels, segmentation.segments, view.pieces);
   for (auto const& [label, plane_camera] : found) {
     CountedPixels joining = inliers_among(view, plane_camera, unassigned.pixels, close);
     joining = whole_segments(std::move(joining), unassigned, view.pieces);
@@ -135,8 +143,10 @@ void complete_planes(PlaneView const& view, std::vector<FoundSurface> const& fou
 
 void fill_holes(PlaneView const& view, std::vector<FoundSurface> const& found,
                 Segmentation& segmentation) {
-  complete_segments(view, found, segmentation);
-  complete_planes(view, found, segmentation);
+  CountedPixels unassigned =
+      unassigned_pixels(segmentation.labels, segmentation.segments, view.pieces);
+  complete_segments(view, found, unassigned, segmentation);
+  complete_planes(view, found, std::move(unassigned), segmentation);
 }
 
 }  // namespace credo

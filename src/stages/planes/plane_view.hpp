@@ -63,20 +63,32 @@ struct PixelPlane {
   return {3.0F * tolerance.fixed_m, 1.5F * tolerance.noise_sigmas, min_cosine};
 }
 
-/// Height above z = 0 of a pixel.
+/// Vectors in three arrays: an image's, or a sample's.
+struct VectorColumns {
+  float const* x;
+  float const* y;
+  float const* z;
+
+  [[nodiscard]] static VectorColumns of(VectorGrid const& grid) {
+    return {grid.x.data(), grid.y.data(), grid.z.data()};
+  }
+  [[nodiscard]] Eigen::Vector3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+/// Height above z = 0 of a point.
 class Heights {
 public:
-  explicit Heights(PlaneView const& view)
-      : cloud_(view.cloud),
+  Heights(PlaneView const& view, VectorColumns const& points)
+      : points_(points),
         up_(view.T_world_camera.rotation().toRotationMatrix().row(2).cast<float>()),
         camera_m_(static_cast<float>(view.T_world_camera.translation().z())) {}
+  /// Of pixels.
+  explicit Heights(PlaneView const& view) : Heights(view, VectorColumns::of(view.cloud)) {}
 
-  [[nodiscard]] float operator()(std::size_t pixel) const {
-    return up_.dot(cloud_.at(pixel)) + camera_m_;
-  }
+  [[nodiscard]] float operator()(std::size_t i) const { return up_.dot(points_.at(i)) + camera_m_; }
 
 private:
-  OrganizedCloud const& cloud_;
+  VectorColumns points_;
   Eigen::Vector3f up_;
   float camera_m_;
 };

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/cell_sums.hpp"
+#include "geometry/sampled_cells.hpp"
 #include "geometry/thinning.hpp"
 #include "stages/planes/holes.hpp"
 #include "stages/planes/is_floor.hpp"
@@ -33,20 +33,23 @@ PlaneTolerance tolerance_of(PlanesConfig const& config) {
 /// it, thinned.
 PointList label_pixels(PlaneView const& view, PixelPlane const& plane, LabelCode code,
                        LabelMap& labels) {
-  CellSums cells(static_cast<float>(view.config.point_spacing_m), view.T_world_camera);
-  auto const run_of = [](Grid<float> const& grid, std::size_t begin, std::size_t end) {
-    return std::span<float const>(grid.data() + begin, end - begin);
-  };
+  auto const width = static_cast<std::size_t>(labels.width());
+  std::vector<PixelRun> runs;
   plane.inliers.pixels.for_each_run([&](std::size_t begin, std::size_t end) {
     std::fill(labels.data() + begin, labels.data() + end, code);
-    cells.add({run_of(view.cloud.x, begin, end), run_of(view.cloud.y, begin, end),
-               run_of(view.cloud.z, begin, end)});
+    while (begin < end) {
+      std::size_t const row_end = std::min(end, (begin / width + 1) * width);
+      runs.push_back({begin, row_end});
+      begin = row_end;
+    }
   });
   plane.joined.pixels.for_each_run([&](std::size_t begin, std::size_t end) {
     std::fill(labels.data() + begin, labels.data() + end, code);
   });
+  // All pixels: what is seen at a grazing angle has none to spare.
+  PixelSampling const all_pixels{static_cast<float>(view.config.point_spacing_m), 0.0F};
   PointList points;
-  cells.append_means(0, points);
+  sampled_cells(view.cloud, runs, all_pixels, view.T_world_camera).append_means(0, points);
   return points;
 }
 

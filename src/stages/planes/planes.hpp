@@ -30,7 +30,7 @@ struct PlanesConfig {
   double confidence = 0.99;
   int max_hypotheses = 100;
   int scoring_points = 2048;
-  int sample_points = 8192;
+  int sample_points = 4096;
   int seed = 1;
   /// Floor: horizontal components of the normal at most this (T: 0.5), the vertical one at least
   /// one minus the other (T: 0.1), mean |z| of the inliers at most the third (T: 0.1).

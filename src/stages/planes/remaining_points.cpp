@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/segment_shares.hpp"
+#include "stages/planes/is_wall.hpp"
 #include "stages/planes/plane_sample.hpp"
 #include "stages/planes/segment_planes.hpp"
 
@@ -44,6 +45,7 @@ std::optional<PixelPlane> RemainingPoints::take_largest(std::uint32_t seed) {
 
 std::vector<Plane> RemainingPoints::suggested() {
   refresh_sample();
+  whole_sample_ = sample_;
   return segment_planes(view_, segments_, sample_, pixels_per_point_);
 }
 
@@ -55,8 +57,26 @@ std::optional<PixelPlane> RemainingPoints::take(Plane const& suggested) {
   if (static_cast<double>(found.inlier_count) * pixels_per_point_ < least) {
     return std::nullopt;
   }
-  return take_found(upright ? fitted_to_segments(std::move(found))
-                            : refined(std::move(found), sample_, angle_rad));
+  found = upright ? fitted_to_segments(std::move(found))
+                  : refined(std::move(found), sample_, angle_rad);
+  if (upright && !may_be_wall(found)) {
+    // Most upright planes are none: their pixels are not even looked at.
+    sample_.remove(found.inliers);
+    return std::nullopt;
+  }
+  return take_found(found);
+}
+
+bool RemainingPoints::may_be_wall(FoundPlane const& found) const {
+  std::vector<std::uint32_t> shown;
+  shown.reserve(found.inlier_count);
+  for (std::size_t i = 0; i < sample_.size(); ++i) {
+    if (found.inliers[i] != 0) {
+      shown.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return credo::may_be_wall(view_, oriented(found.plane, {PixelSet(0), 0}), std::move(shown),
+                            sample_, whole_sample_, pixels_per_point_);
 }
 
 std::optional<PixelPlane> RemainingPoints::take_found(FoundPlane const& found) {

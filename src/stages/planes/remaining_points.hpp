@@ -23,7 +23,8 @@ public:
 
   /// Planes that segments suggest, each to be taken in turn: see segment_planes().
   [[nodiscard]] std::vector<Plane> suggested();
-  /// Takes one of these out, fitted to all that lies in it; none where too little is left of it.
+  /// Takes one of these out, fitted to all that lies in it; none where too little is left of it, or
+  /// where the sample tells that an upright one is no wall.
   std::optional<PixelPlane> take(Plane const& suggested);
 
   /// Fits what a floor or wall has taken to the segments: all of those that it holds most of, as
@@ -58,6 +59,7 @@ private:
     }
     return flags;
   }
+  [[nodiscard]] bool may_be_wall(FoundPlane const& found) const;
   [[nodiscard]] PixelPlane oriented(Plane const& camera, CountedPixels inliers) const;
 
   PlaneView const& view_;
@@ -67,6 +69,8 @@ private:
   /// segments.
   std::vector<std::uint32_t> eligible_;
   PlaneSearchPoints sample_;
+  /// That of planes that are suggested, with what has been taken since.
+  PlaneSearchPoints whole_sample_;
   /// As it was drawn.
   double pixels_per_point_ = 1.0;
 };

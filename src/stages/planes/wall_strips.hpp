@@ -1,10 +1,35 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "stages/planes/plane_view.hpp"
 
 namespace credo {
+
+/// Some of an image's points or of a sample's, in raster order.
+struct LookedAt {
+  VectorColumns points;
+  VectorColumns normals;
+  std::vector<std::uint32_t> positions;
+};
+
+/// An upright plane as far as it is looked at: evenly spread pixels of it, and as many of all that
+/// are clear of it on its far side.
+struct WallLook {
+  LookedAt shown;
+  LookedAt behind;
+  /// How many pixels each stands for.
+  double pixels_each = 1.0;
+};
+
+/// Of the pixels that are shown, so many tell of the whole plane.
+inline constexpr std::size_t kEnoughShown = 320;
+
+/// Every so manieth pixel: the larger the plane, the fewer of them tell as much.
+[[nodiscard]] WallLook look_at_wall(PlaneView const& view, PixelPlane const& plane,
+                                    CountedPixels const& behind);
 
 /// How an upright plane closes the view, told in upright strips of the picture. A strip that shows
 /// it is closed where next to nothing is seen behind it there: neither over its top, nor through
@@ -19,16 +44,16 @@ struct WallStrips {
   double closed_length_m = 0.0;
   /// Pixels behind the plane that are seen past its ends: a free end is a corner of the wall, or
   /// the side of a thing.
-  std::size_t past_left = 0;
-  std::size_t past_right = 0;
+  double past_left = 0.0;
+  double past_right = 0.0;
   /// Of all pixels behind, those that face as the plane does and lie no deeper behind it than
   /// furniture is deep: behind a cupboard or a door is the wall that it stands before; through an
   /// opening or round a corner is another room.
-  std::size_t backed = 0;
+  double backed = 0.0;
 };
 
-/// `behind` are all pixels clear of the plane on its far side.
+/// The pixels of `plane` itself are not looked at.
 [[nodiscard]] WallStrips wall_strips(PlaneView const& view, PixelPlane const& plane,
-                                     CountedPixels const& behind);
+                                     WallLook const& look);
 
 }  // namespace credo

@@ -20,6 +20,7 @@ using Position = std::int32_t;
 /// more than its thickness.
 constexpr std::uint8_t kValid = 1;
 constexpr std::uint8_t kThickest = 5;
+constexpr std::uint8_t kMiddle = 3;
 constexpr std::uint8_t kThinnest = 2;
 
 /// Pixels of one row, side by side, that may all be labelled.
@@ -54,7 +55,7 @@ public:
 
   PartLabels parts() && {
     begin_parts(kThickest, limits_.seed_px);
-    for (std::uint8_t least = kThickest - 1; least >= kThinnest; --least) {
+    for (std::uint8_t const least : {kMiddle, kThinnest}) {
       grow(least);
       begin_parts(least, limits_.part_px);
     }

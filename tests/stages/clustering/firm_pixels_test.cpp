@@ -23,6 +23,26 @@ using ::testing::SizeIs;
 
 constexpr LabelCode kThing = kFirstStuff;
 
+/// 1 where a run is firm. Runs are in raster order, and each pixel of stuff is in one.
+Grid<std::uint8_t> firm_pixels(Grid<float> const& depth_m, LabelMap const& labels) {
+  Grid<std::uint8_t> firm(labels.width(), labels.height());
+  std::size_t pixels = 0;
+  std::size_t last_end = 0;
+  for (StuffRun const& run : firm_runs(depth_m, labels)) {
+    EXPECT_LE(last_end, run.pixels.begin);
+    EXPECT_LT(run.pixels.begin, run.pixels.end);
+    EXPECT_EQ(labels.pixel(run.pixels.begin).v, labels.pixel(run.pixels.end - 1).v);
+    last_end = run.pixels.end;
+    pixels += run.pixels.end - run.pixels.begin;
+    for (std::size_t i = run.pixels.begin; i < run.pixels.end; ++i) {
+      EXPECT_EQ(labels[i], run.label);
+      firm[i] = run.is_firm ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(pixels, static_cast<std::size_t>(std::ranges::count_if(labels, is_stuff)));
+  return firm;
+}
+
 /// Word for word: one piece after the other is filled, pixel by pixel.
 Grid<std::uint8_t> literal_firm_pixels(Grid<float> const& depth_m, LabelMap const& labels) {
   constexpr std::array<Pixel, 4> kSteps = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};

@@ -13,6 +13,7 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 constexpr float kSpacing = 0.02F;
+constexpr PixelSampling kAllPixels{kSpacing, 0.0F};
 
 // A slope with stripes of labels, some of them torn, some explained by something else.
 struct Scene {
@@ -29,7 +30,7 @@ struct Scene {
     }
   }
   [[nodiscard]] std::vector<StuffCluster> clusters() const {
-    return stuff_clusters(cloud, labels, {}, T_world_camera, kSpacing);
+    return stuff_clusters(cloud, stuff_runs(labels), kAllPixels, T_world_camera);
   }
 
   OrganizedCloud cloud;
@@ -78,10 +79,30 @@ TEST(StuffClusters, LabelsThatAreNotSeenAreEmpty) {
   EXPECT_THAT(clusters[5].points_world, IsEmpty());
 }
 
+TEST(StuffClusters, CountAllPixelsAndHaveThePointsOfTheFirm) {
+  Scene const scene;
+  std::vector<StuffRun> runs = stuff_runs(scene.labels);
+  // Every third run is apart.
+  std::vector<PointList> firm(8);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    runs[k].is_firm = k % 3 != 0;
+    for (std::size_t i = runs[k].pixels.begin; runs[k].is_firm && i < runs[k].pixels.end; ++i) {
+      firm[runs[k].label - std::size_t{kFirstStuff}].push_back(scene.cloud.at(i));
+    }
+  }
+  std::vector<StuffCluster> const clusters =
+      stuff_clusters(scene.cloud, runs, kAllPixels, scene.T_world_camera);
+  ASSERT_THAT(clusters, SizeIs(8));
+  for (std::size_t k = 0; k < clusters.size(); ++k) {
+    EXPECT_EQ(clusters[k].pixel_count, points_with(scene, clusters[k].label).size());
+    EXPECT_EQ(clusters[k].points_world, thin_points(firm[k], kSpacing));
+  }
+}
+
 TEST(StuffClusters, OfNothing) {
-  EXPECT_THAT(stuff_clusters({}, {}, {}, Se3(), kSpacing), IsEmpty());
-  EXPECT_THAT(stuff_clusters(OrganizedCloud(5, 4), LabelMap(5, 4, kFloor), {}, Se3(), kSpacing),
-              IsEmpty());
+  EXPECT_THAT(stuff_runs(LabelMap()), IsEmpty());
+  EXPECT_THAT(stuff_runs(LabelMap(5, 4, kFloor)), IsEmpty());
+  EXPECT_THAT(stuff_clusters({}, {}, kAllPixels, Se3()), IsEmpty());
 }
 
 }  // namespace

@@ -83,5 +83,44 @@ TEST(Walls, AreFoundHoweverTheCameraIsTurned) {
   }));
 }
 
+/// The same where what lies at y = 2 is a segment, and what is behind it and before it are others;
+/// so many points are a sample.
+bool is_wall_of_segments(WorldScene const& scene, int sample_points) {
+  Shot const shot = shot_of(scene, camera_looking_along_y(1.3, 0.0));
+  Segmentation unassigned = shot.unassigned();
+  unassigned.segments = segments_of(shot, [](Eigen::Vector3d const& p_m) {
+    return p_m.y() < 1.99 ? 1 : p_m.y() < 2.01 ? 2 : 3;
+  });
+  PlanesConfig config = small_planes();
+  config.sample_points = sample_points;
+  Segmentation const result = extract_planes(shot.frame, shot.normals, unassigned, config);
+  return std::ranges::any_of(result.walls, [](WallObservation const& wall) {
+    return std::abs(wall.plane_world.offset_m + 2.0) < 0.02;
+  });
+}
+
+// With the most points large planes are told by the sample alone, with the fewest by their pixels.
+TEST(Walls, AreTheSameInASampleAndInAllPixels) {
+  for (int const sample_points : {16384, 8192, 250}) {
+    SCOPED_TRACE(sample_points);
+    EXPECT_TRUE(is_wall_of_segments(WorldScene().with_floor().with_wall(2.0), sample_points));
+    EXPECT_TRUE(is_wall_of_segments(far_wall()
+                                        .with_box({-3.0, 2.0, 0.0}, {-0.3, 2.1, 2.6})
+                                        .with_box({0.3, 2.0, 0.0}, {3.0, 2.1, 2.6}),
+                                    sample_points));
+    EXPECT_TRUE(
+        is_wall_of_segments(far_wall().with_box({-3.0, 2.0, 0.0}, {0.3, 2.1, 2.6}), sample_points));
+    EXPECT_FALSE(
+        is_wall_of_segments(far_wall().with_box({-0.6, 2.0, 0.0}, {0.6, 2.5, 2.6}), sample_points));
+    EXPECT_FALSE(is_wall_of_segments(
+        WorldScene().with_floor().with_wall(2.6).with_box({-3.0, 2.0, 0.0}, {0.3, 2.6, 2.6}),
+        sample_points));
+    EXPECT_FALSE(
+        is_wall_of_segments(far_wall().with_box({-3.0, 2.0, 0.0}, {3.0, 2.1, 1.6}), sample_points));
+    EXPECT_FALSE(
+        is_wall_of_segments(far_wall().with_box({-3.0, 2.0, 1.0}, {3.0, 2.1, 2.6}), sample_points));
+  }
+}
+
 }  // namespace
 }  // namespace credo::test

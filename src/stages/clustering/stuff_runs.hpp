@@ -1,0 +1,16 @@
+#pragma once
+
+#include "core/label.hpp"
+#include "geometry/sampled_cells.hpp"
+
+namespace credo {
+
+/// Pixels of one label of stuff, side by side in a row.
+struct StuffRun {
+  PixelRun pixels;
+  LabelCode label = kFirstStuff;
+  /// Whether they hold together with most of their label; see firm_runs.
+  bool is_firm = true;
+};
+
+}  // namespace credo
