@@ -46,6 +46,7 @@ Json thing_json(ThingHistory const& history) {
           {"first_frame", number(history.moments.front().at.frame)},
           {"last_frame", number(last.at.frame)},
           {"gone_frame", history.gone ? Json(number(history.gone->frame)) : Json(nullptr)},
+          {"joined", history.joined.empty() ? Json(nullptr) : Json(history.joined)},
           {"probability", last.probability},
           {"log_odds", last.log_odds},
           {"evidence", to_string(last.evidence)},

@@ -62,10 +62,12 @@ std::string gone_text(ThingHistory const& history) {
   if (history.kind != ThingKind::kStuff) {
     return fmt::format("not believed from frame {} on", frame);
   }
+  if (!history.joined.empty()) {
+    return fmt::format("one with {} from frame {} on", history.joined, frame);
+  }
   return history.moments.back().log_odds < 0.0
              ? fmt::format("forgotten in frame {}", frame)
-             : fmt::format("gone from frame {} on: seen through, or one with something else",
-                           frame);
+             : fmt::format("gone from frame {} on: seen through, or one with what is known", frame);
 }
 
 std::string share_text(std::optional<std::array<double, 5>> const& shares, PointState state) {

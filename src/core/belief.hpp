@@ -154,6 +154,8 @@ struct StuffBelief {
   std::vector<OneWith> one_with;
   /// The part of its last looks at which it had moved.
   double moved_share = 0.0;
+  /// Things that became one with it in this frame: they have no belief of their own any more.
+  std::vector<std::uint32_t> joined_ids;
 
   [[nodiscard]] StuffCluster const& latest() const { return *recent_clusters.back(); }
 };

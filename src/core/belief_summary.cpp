@@ -55,7 +55,8 @@ StuffSummary stuff_summary(StuffBelief const& stuff) {
           stuff.evidence,
           stuff.label,
           stuff.log_odds,
-          stuff.why};
+          stuff.why,
+          stuff.joined_ids};
 }
 
 }  // namespace

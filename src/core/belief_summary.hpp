@@ -68,6 +68,8 @@ struct StuffSummary {
   std::optional<LabelCode> label;
   double log_odds = 0.0;
   std::optional<Account> why;
+  /// Things that became one with it in this frame.
+  std::vector<std::uint32_t> joined_ids;
 };
 
 struct BeliefSummary {

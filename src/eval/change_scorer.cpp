@@ -30,6 +30,13 @@ bool is_believed(std::map<std::uint32_t, double> const& probabilities, std::uint
   return found != probabilities.end() && found->second >= kBelieved;
 }
 
+/// Whether what is believed of a piece goes on as a part of another that it became one with.
+bool goes_on_in_another(std::uint32_t id, BeliefSummary const& belief) {
+  return std::ranges::any_of(belief.stuff, [&](StuffSummary const& piece) {
+    return piece.probability >= kBelieved && std::ranges::count(piece.joined_ids, id) > 0;
+  });
+}
+
 /// The known object that means a true one; null where none does.
 ObjectSummary const* believed_as(std::string const& true_id, ChangeFrame const& frame) {
   for (std::size_t i = 0; i < frame.match.size(); ++i) {
@@ -154,7 +161,8 @@ void ChangeScorer::judge_pieces(ChangeFrame const& frame) {
   };
   for (auto const& [id, body] : believed_pieces_) {
     TrueThing const* const thing = body.label ? thing_with(*body.label, frame.truth) : nullptr;
-    if (thing == nullptr || frame.told.told(thing->id) || is_believed(probability, id)) {
+    if (thing == nullptr || frame.told.told(thing->id) || is_believed(probability, id) ||
+        goes_on_in_another(id, frame.belief)) {
       continue;
     }
     bool const has_another = std::ranges::any_of(probability, [&](auto const& other) {

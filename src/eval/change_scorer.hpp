@@ -44,7 +44,9 @@ struct ChangeFrame {
 ///
 /// The belief claims a change where something was believed and is not any more, and where a known
 /// object is believed again. A new piece of stuff is no claim: it may only have come into view.
-/// Dropping a piece of floor, wall or known object is none either: that is only better known.
+/// Dropping a piece of floor, wall or known object is none either: that is only better known. Nor
+/// is the end of a name whose piece became one with another that is believed: something is believed
+/// to stand there as before.
 class ChangeScorer {
 public:
   /// What happened in a frame, before its belief, if it has one. Frames in order.

@@ -48,6 +48,7 @@ public:
       std::size_t const after = history.moments.back().at.position + 1;
       if (after < run.size()) {
         history.gone = run_frame(run, after);
+        history.joined = joined_of(history, run[after]);
       }
     }
     std::ranges::stable_sort(histories_, {}, &ThingHistory::kind);
@@ -55,6 +56,19 @@ public:
   }
 
 private:
+  /// The name of what it became one with.
+  static std::string joined_of(ThingHistory const& history, BeliefSummary const& belief) {
+    for (StuffSummary const& stuff : belief.stuff) {
+      for (std::uint32_t const id : stuff.joined_ids) {
+        if (history.kind == ThingKind::kStuff &&
+            history.name == thing_name(ThingKind::kStuff, std::to_string(id))) {
+          return thing_name(ThingKind::kStuff, std::to_string(stuff.id));
+        }
+      }
+    }
+    return "";
+  }
+
   ThingHistory& history_of(ThingKind kind, std::string const& id) {
     auto const [place, is_new] = places_.try_emplace({kind, id}, histories_.size());
     if (is_new) {

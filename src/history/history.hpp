@@ -46,6 +46,8 @@ struct ThingHistory {
   std::vector<Moment> moments;
   /// The first frame after these in which it is not; none where the run ends with it.
   std::optional<RunFrame> gone;
+  /// With what it became one in that frame, by name; empty where it did not.
+  std::string joined;
 };
 
 /// Of each thing that the run ever believed: floor, walls, objects, stuff, each by its first frame.

@@ -108,6 +108,9 @@ Json stuff_json(StuffSummary const& stuff) {
                {"evidence", to_string(stuff.evidence)},
                {"label", label_json(stuff.label)}};
   add_why(json, stuff);
+  if (!stuff.joined_ids.empty()) {
+    json["joined"] = stuff.joined_ids;
+  }
   return json;
 }
 

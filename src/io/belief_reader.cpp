@@ -121,6 +121,11 @@ StuffSummary stuff_of(JsonValue const& value) {
   stuff.evidence = evidence_of(value.at("evidence"));
   stuff.label = label_of(value.at("label"));
   read_why(value, stuff);
+  if (value.has("joined")) {
+    value.at("joined").for_each([&](JsonValue const& id) {
+      stuff.joined_ids.push_back(static_cast<std::uint32_t>(id.count(kMaxId)));
+    });
+  }
   return stuff;
 }
 

@@ -66,6 +66,24 @@ TEST(ChangeScorer, TradingOnePieceForAnotherOfTheSameThingIsNoClaim) {
   EXPECT_FALSE(scores_of(run).change.precision);
 }
 
+TEST(ChangeScorer, BecomingOneWithWhatIsBelievedIsNoClaimAndWithWhatIsNotIsOne) {
+  for (double const probability_of_host : {0.9, 0.2}) {
+    std::vector<RunFrame> run = perfect_run(4);
+    drop_mug(run, 2);
+    StuffSummary host;
+    host.id = 40;
+    host.probability = probability_of_host;
+    host.joined_ids = {run[0].belief.stuff[kMug].id};
+    run[2].belief.stuff.push_back(host);
+    ChangeScores const scores = scores_of(run).change;
+    if (probability_of_host > 0.5) {
+      EXPECT_FALSE(scores.precision);
+    } else {
+      EXPECT_EQ(scores.precision, 0.0);
+    }
+  }
+}
+
 TEST(ChangeScorer, AMoveIsNoticedWhenTheNewPlaceIsBelievedAndTheOldIsNot) {
   std::vector<RunFrame> run = perfect_run(8);
   for (std::size_t i = 3; i < run.size(); ++i) {

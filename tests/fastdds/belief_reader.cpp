@@ -98,11 +98,18 @@ credo::BeliefSummary summary_of(credo::msg::Belief const& belief) {
     summary.objects.push_back(entry);
   }
   for (credo::msg::StuffItem const& stuff : belief.stuff()) {
-    summary.stuff.push_back({stuff.stuff_id(), stuff.probability(), stuff.history_count(),
-                             stuff.pixel_count(), vector_of(stuff.centroid_world_m()),
-                             vector_of(stuff.min_world_m()), vector_of(stuff.max_world_m()),
-                             evidence_of(stuff.evidence()), label_of(stuff.label()),
-                             stuff.log_odds(), account_of(stuff.why())});
+    summary.stuff.push_back({stuff.stuff_id(),
+                             stuff.probability(),
+                             stuff.history_count(),
+                             stuff.pixel_count(),
+                             vector_of(stuff.centroid_world_m()),
+                             vector_of(stuff.min_world_m()),
+                             vector_of(stuff.max_world_m()),
+                             evidence_of(stuff.evidence()),
+                             label_of(stuff.label()),
+                             stuff.log_odds(),
+                             account_of(stuff.why()),
+                             {}});
   }
   return summary;
 }

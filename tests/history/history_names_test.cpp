@@ -18,7 +18,7 @@ using ::testing::IsEmpty;
 std::vector<ThingHistory> things(std::vector<std::pair<ThingKind, std::string>> const& ids) {
   std::vector<ThingHistory> histories;
   for (auto const& [kind, id] : ids) {
-    histories.push_back({kind, thing_name(kind, id), "", {}, {}});
+    histories.push_back({kind, thing_name(kind, id), "", {}, {}, ""});
   }
   return histories;
 }

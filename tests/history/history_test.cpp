@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "history/runs.hpp"
@@ -38,6 +40,21 @@ TEST(History, HasAMomentForEachFrameThatBelievedTheThing) {
   ASSERT_TRUE(history.gone);
   EXPECT_EQ(number(history.gone->frame), 9);
   EXPECT_NEAR(history.gone->time_s, 0.9, 1e-12);
+}
+
+TEST(History, OfWhatBecameOneWithAnotherTellsWithWhich) {
+  std::vector<BeliefSummary> run = run_of_ten();
+  EXPECT_EQ(histories_of(run)[0].joined, "");
+  StuffSummary host;
+  host.id = 12;
+  for (auto const& [joined_id, told] : {std::pair(7U, "stuff:12"), std::pair(8U, "")}) {
+    auto const gone = std::ranges::find_if(
+        run, [](BeliefSummary const& belief) { return number(belief.frame) == 9; });
+    ASSERT_NE(gone, run.end());
+    gone->stuff = {host};
+    gone->stuff[0].joined_ids = {joined_id};
+    EXPECT_EQ(histories_of(run)[0].joined, told);
+  }
 }
 
 TEST(History, OfWhatIsBelievedToTheEndDoesNotEnd) {

@@ -48,6 +48,13 @@ TEST(BeliefJson, IsTheFormatOfTheFile) {
       R"("visible_share":0.5,"news":0.25,"moved":-5.0,"bounded":true}}]})");
 }
 
+TEST(BeliefJson, WhatBecameOneWithAThingIsToldOfIt) {
+  BeliefState belief = belief_of_a_kitchen();
+  EXPECT_FALSE(Json::parse(belief_json(summary_of(belief)))["stuff"][0].contains("joined"));
+  belief.stuff[0].joined_ids = {3, 5};
+  EXPECT_EQ(Json::parse(belief_json(summary_of(belief)))["stuff"][0]["joined"], Json({3, 5}));
+}
+
 TEST(BeliefJson, NumbersReadBackToTheBit) {
   BeliefState belief = belief_of_a_kitchen();
   belief.floor->height_m = std::nextafter(0.1, 1.0);

@@ -78,6 +78,7 @@ TEST_F(Readers, BeliefsComeBackToTheSameBytes) {
   next.frame = FrameIndex{5};
   next.floor.reset();
   next.segmented_with = kPriorFrame;
+  next.stuff[0].joined_ids = {3, 5};
   std::string const lines = belief_line() + "\n\n" + belief_json(summary_of(next)) + "\n";
   write_text(path(), lines);
   std::vector<BeliefSummary> const beliefs = read_beliefs(path());

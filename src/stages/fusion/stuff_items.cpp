@@ -51,7 +51,8 @@ public:
         clusters_(clusters_of(segmentation)),
         given_to_(clusters_.size(), -1),
         news_(known_.stuff.size(), 0.0) {
-    for (StuffBelief const& item : known_.stuff) {
+    for (StuffBelief& item : known_.stuff) {
+      item.joined_ids.clear();
       log_odds_before_.push_back(item.log_odds);
     }
   }
@@ -331,6 +332,9 @@ private:
     first.most_agreeing = std::max(first.most_agreeing, second.most_agreeing);
     set_model(first, joined_model(*first.model, *second.model),
               std::max(first.latest().pixel_count, second.latest().pixel_count));
+    first.joined_ids.push_back(second.id);
+    first.joined_ids.insert(first.joined_ids.end(), second.joined_ids.begin(),
+                            second.joined_ids.end());
     forget(second);
   }
 

@@ -119,6 +119,25 @@ TEST(StuffItems, OfTwoThatAreOneTheBetterKnownKeepsItsName) {
   EXPECT_THAT(room.ids(), testing::ElementsAre(2U));
 }
 
+TEST(StuffItems, WhatBecomesOneWithAnotherIsToldInThatFrameAlone) {
+  Room room;
+  Board const left{kFirst, 0.0, 0.0, 0.05, 0.2};
+  Board const right{kSecond, 0.05, 0.0, 0.15, 0.2};
+  room.show({.boards = {left, right}}, 3);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  int told = 0;
+  for (int frame = 0; frame < 20; ++frame) {
+    std::size_t const before = room.ids().size();
+    room.show({.boards = {{kFirst}}});
+    bool const joins = room.ids().size() < before;
+    for (StuffBelief const& item : room.stuff()) {
+      EXPECT_EQ(item.joined_ids.size(), joins ? 1U : 0U) << frame;
+      told += joins && item.joined_ids.front() + item.id == 3U ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(told, 1);
+}
+
 // A magazine on a table: what is measured agrees with the table, too.
 TEST(StuffItems, WhatLiesOnAThingIsAThingOfItsOwn) {
   Room room;
