@@ -67,7 +67,8 @@ std::string gone_text(ThingHistory const& history) {
   }
   return history.moments.back().log_odds < 0.0
              ? fmt::format("forgotten in frame {}", frame)
-             : fmt::format("gone from frame {} on: seen through, or one with what is known", frame);
+             : fmt::format("gone from frame {} on: seen through, or one with something else",
+                           frame);
 }
 
 std::string share_text(std::optional<std::array<double, 5>> const& shares, PointState state) {

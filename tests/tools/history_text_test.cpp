@@ -77,6 +77,14 @@ TEST(HistoryText, TellsHowItEnds) {
   EXPECT_THAT(ending(-1.0, true), HasSubstr("  in the run's last frame, 8, with 0.269\n"));
 }
 
+TEST(HistoryText, TellsWithWhatItBecameOne) {
+  ThingHistory history = of_ten();
+  EXPECT_EQ(json::parse(history_json(history))["joined"], nullptr);
+  history.joined = "stuff:12";
+  EXPECT_THAT(history_text(history, false), HasSubstr("; one with stuff:12 from frame 9 on\n"));
+  EXPECT_EQ(json::parse(history_json(history))["joined"], "stuff:12");
+}
+
 TEST(HistoryText, TellsWhatAccountsDoNotExplain) {
   EXPECT_THAT(history_text(of_ten(), false), Not(HasSubstr("`moved`")));
   EXPECT_THAT(ending(3.0, false), HasSubstr("From frame 8 on its log-odds are not what"));
