@@ -19,7 +19,7 @@ struct FpfhSettings {
   /// A plane at least so long is nothing that a model's descriptors know of.
   float background_m = 0.6F;
   /// The thesis' sigma_f; each third of a descriptor sums up to 100.
-  float deviation = 50.0F;
+  float deviation = 80.0F;
   /// Points of the scene that are drawn, the model's features that are nearest to each, and draws
   /// among them.
   std::size_t points = 600;
