@@ -1,10 +1,13 @@
 #include "methods.hpp"
 
+#include <utility>
+
 #include "baselines/ghv_detector.hpp"
 #include "baselines/icp_detector.hpp"
 #include "baselines/ppf_detector.hpp"
 #include "core/detector_config.hpp"
 #include "detector/bpa_detector.hpp"
+#include "proposals/proposal_detector.hpp"
 #include "truth_detector.hpp"
 
 namespace credo {
@@ -14,6 +17,13 @@ namespace {
 template <typename Kind>
 std::unique_ptr<Detector> made(std::vector<ObjectModel> const& models) {
   return std::make_unique<Kind>(models);
+}
+
+/// The search of `bpa` after other proposals.
+Method proposed_by(std::string name, Proposers proposers, double told_from) {
+  return {std::move(name), [proposers, told_from](std::vector<ObjectModel> const& models) {
+            return std::make_unique<ProposalDetector>(models, proposers, told_from);
+          }};
 }
 
 }  // namespace
@@ -35,6 +45,10 @@ std::vector<Method> all_methods(std::vector<TableView> const& views, double told
       {"icp", made<IcpDetector>},
       {"ghv", made<GhvDetector>},
       {"ppf", made<PpfDetector>},
+      proposed_by("pairs", {.pairs = true}, told_from),
+      proposed_by("fpfh", {.fpfh = true}, told_from),
+      proposed_by("fpfh-facets", {.facets = true, .fpfh = true}, told_from),
+      proposed_by("bpa-fpfh", {.pairs = true, .facets = true, .fpfh = true}, told_from),
   };
 }
 

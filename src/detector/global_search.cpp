@@ -161,18 +161,16 @@ bool is_in_place_of_another(PoseCandidate const& candidate, ClaimedPixels const&
 }
 
 /// Each step of the funnel takes a share of what it would.
-std::vector<PoseCandidate> search(SearchModel const& model, PairTable const& pairs,
+std::vector<PoseCandidate> search(SearchModel const& model, std::vector<Proposal> const& proposals,
                                   SearchScene const& scene, ClaimedPixels const& explained,
                                   std::size_t share, std::size_t max_candidates) {
   PoseScore const score(model, scene);
   PoseDistance const distance(model);
   std::mt19937_64 random(kDrawSeed);
   std::vector<Scored> poses;
-  for (auto const& proposals :
-       {propose_by_pairs(model, pairs, scene, explained), propose_by_facets(model, scene)}) {
-    for (Proposal const& proposal : proposals) {
-      poses.push_back({proposal.pose, proposal.segment, score.rough(proposal.pose, kRoughPoints)});
-    }
+  poses.reserve(proposals.size());
+  for (Proposal const& proposal : proposals) {
+    poses.push_back({proposal.pose, proposal.segment, score.rough(proposal.pose, kRoughPoints)});
   }
   if (poses.size() > kRoughSurvivors / share) {
     sort_best_first(poses);
@@ -219,10 +217,38 @@ std::vector<PoseCandidate> search(SearchModel const& model, PairTable const& pai
 
 }  // namespace
 
+std::vector<Proposal> propose_everywhere(SearchModel const& model, PairTable const& pairs,
+                                         SearchScene const& scene, ClaimedPixels const& explained) {
+  std::vector<Proposal> proposals = propose_by_pairs(model, pairs, scene, explained);
+  std::ranges::move(propose_by_facets(model, scene), std::back_inserter(proposals));
+  return proposals;
+}
+
+std::vector<PoseCandidate> search_among(SearchModel const& model,
+                                        std::vector<Proposal> const& proposals,
+                                        SearchScene const& scene, std::size_t max_candidates,
+                                        ClaimedPixels const& explained) {
+  return search(model, proposals, scene, explained, 1, max_candidates);
+}
+
 std::vector<PoseCandidate> search_everywhere(SearchModel const& model, PairTable const& pairs,
                                              SearchScene const& scene, std::size_t max_candidates,
                                              ClaimedPixels const& explained) {
-  return search(model, pairs, scene, explained, 1, max_candidates);
+  return search_among(model, propose_everywhere(model, pairs, scene, explained), scene,
+                      max_candidates, explained);
+}
+
+std::vector<PoseCandidate> search_again_among(SearchModel const& model,
+                                              std::vector<Proposal> const& proposals,
+                                              SearchScene const& scene,
+                                              std::vector<PoseCandidate> found_before,
+                                              ClaimedPixels const& explained,
+                                              std::size_t max_candidates) {
+  std::ranges::move(search(model, proposals, scene, explained, 2, max_candidates),
+                    std::back_inserter(found_before));
+  std::size_t const all = found_before.size();
+  return likeliest(std::move(found_before), PoseDistance(model),
+                   kCandidatesApart_diameters * model.diameter_m, all);
 }
 
 std::vector<PoseCandidate> search_again(SearchModel const& model, PairTable const& pairs,
@@ -230,11 +256,8 @@ std::vector<PoseCandidate> search_again(SearchModel const& model, PairTable cons
                                         std::vector<PoseCandidate> found_before,
                                         ClaimedPixels const& explained,
                                         std::size_t max_candidates) {
-  std::ranges::move(search(model, pairs, scene, explained, 2, max_candidates),
-                    std::back_inserter(found_before));
-  std::size_t const all = found_before.size();
-  return likeliest(std::move(found_before), PoseDistance(model),
-                   kCandidatesApart_diameters * model.diameter_m, all);
+  return search_again_among(model, propose_everywhere(model, pairs, scene, explained), scene,
+                            std::move(found_before), explained, max_candidates);
 }
 
 }  // namespace credo

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "detector/pair_proposals.hpp"
 #include "detector/pair_table.hpp"
 #include "detector/polishing.hpp"
 #include "detector/search_model.hpp"
@@ -29,5 +30,26 @@ namespace credo {
                                                       std::vector<PoseCandidate> found_before,
                                                       ClaimedPixels const& explained,
                                                       std::size_t max_candidates);
+
+/// What both of them begin with: poses that pairs of points or flat pieces speak for.
+[[nodiscard]] std::vector<Proposal> propose_everywhere(SearchModel const& model,
+                                                       PairTable const& pairs,
+                                                       SearchScene const& scene,
+                                                       ClaimedPixels const& explained);
+
+/// `search_everywhere` among other proposals, whatever they come from.
+[[nodiscard]] std::vector<PoseCandidate> search_among(SearchModel const& model,
+                                                      std::vector<Proposal> const& proposals,
+                                                      SearchScene const& scene,
+                                                      std::size_t max_candidates,
+                                                      ClaimedPixels const& explained = {});
+
+/// `search_again` among other proposals.
+[[nodiscard]] std::vector<PoseCandidate> search_again_among(SearchModel const& model,
+                                                            std::vector<Proposal> const& proposals,
+                                                            SearchScene const& scene,
+                                                            std::vector<PoseCandidate> found_before,
+                                                            ClaimedPixels const& explained,
+                                                            std::size_t max_candidates);
 
 }  // namespace credo
