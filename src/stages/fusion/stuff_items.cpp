@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "stages/fusion/cluster_owners.hpp"
 #include "stages/fusion/existence.hpp"
 #include "stages/fusion/shown_planes.hpp"
 #include "stages/fusion/stuff_findings.hpp"
@@ -21,18 +22,9 @@
 namespace credo {
 namespace {
 
-// What a cluster must have, in blocks, to be a thing.
-constexpr int kLeastBlocks = 12;
-// A cluster is a thing's where so much of what it should show agrees, and the two share so much of
-// either.
-constexpr double kLeastAgreement = 0.25;
-constexpr double kLeastShareOfCluster = 0.3;
-constexpr double kLeastShareOfThing = 0.4;
 // Merging.
 constexpr double kShareInAnother = 0.6;
 constexpr double kLeastShown = 0.32;
-// What is so much of what a thing shows does not lie on it.
-constexpr double kGoodPart = 0.4;
 // A cluster that things explain by so much is none of its own.
 constexpr double kExplained = 0.7;
 
@@ -49,7 +41,7 @@ public:
         now_{segmentation.stamp_ns, segmentation.T_world_camera.translation()},
         looks_(segmentation.sight, segmentation.T_world_camera, known_.stuff),
         clusters_(clusters_of(segmentation)),
-        given_to_(clusters_.size(), -1),
+        owners_(looks_.looks(), clusters_),
         news_(known_.stuff.size(), 0.0) {
     for (StuffBelief& item : known_.stuff) {
       item.joined_ids.clear();
@@ -58,7 +50,6 @@ public:
   }
 
   FusedStuff run() && {
-    associate();
     for (std::size_t i = 0; i < known_.stuff.size(); ++i) {
       update(i);
     }
@@ -81,59 +72,6 @@ private:
   [[nodiscard]] SeenCluster const& cluster(LabelCode label) const {
     return clusters_[label - std::size_t{kFirstStuff}];
   }
-  [[nodiscard]] std::int32_t& given_to(LabelCode label) {
-    return given_to_[label - std::size_t{kFirstStuff}];
-  }
-
-  void associate() {
-    std::vector<double> best(clusters_.size(), 0.0);
-    // First what lies on nothing: a thing that lies on another is not that one.
-    for (bool const lying : {false, true}) {
-      for (std::size_t i = 0; i < known_.stuff.size(); ++i) {
-        for (ClusterShare const& share : look(i).shares) {
-          if (!is_stuff(share.label) || (cluster(share.label).lies_on >= 0) != lying ||
-              is_base_of(i, share.label)) {
-            continue;
-          }
-          std::optional<double> const overlap = overlap_of(i, share);
-          double& most = best[share.label - std::size_t{kFirstStuff}];
-          if (overlap && *overlap > most) {
-            most = *overlap;
-            given_to(share.label) = static_cast<std::int32_t>(i);
-          }
-        }
-      }
-    }
-  }
-
-  /// Whether a cluster lies on this thing and is not a part of it.
-  [[nodiscard]] bool is_base_of(std::size_t item, LabelCode label) const {
-    std::int32_t const base = cluster(label).lies_on;
-    return base >= 0 &&
-           given_to_[static_cast<std::size_t>(base)] == static_cast<std::int32_t>(item) &&
-           !is_good_part_of(item, label);
-  }
-
-  /// A lid, say, which the segmentation finds raised above its box in one frame and not in the
-  /// next.
-  [[nodiscard]] bool is_good_part_of(std::size_t item, LabelCode label) const {
-    auto const& shares = look(item).shares;
-    auto const share = std::ranges::find(shares, label, &ClusterShare::label);
-    return share != shares.end() && share->blocks > kGoodPart * look(item).blocks;
-  }
-
-  /// What a thing and a cluster have in common, of what both have; none where that is too little.
-  [[nodiscard]] std::optional<double> overlap_of(std::size_t item,
-                                                 ClusterShare const& share) const {
-    auto const area = static_cast<double>(cluster(share.label).blocks.size());
-    double const blocks = share.blocks;
-    bool const enough =
-        blocks > kLeastShareOfCluster * area || blocks > kLeastShareOfThing * look(item).blocks;
-    if (share.agreement() < kLeastAgreement || area < kLeastBlocks || !enough) {
-      return std::nullopt;
-    }
-    return blocks / (area + look(item).blocks - blocks);
-  }
 
   void update(std::size_t i) {
     StuffBelief& item = known_.stuff[i];
@@ -142,7 +80,7 @@ private:
     int most = 0;
     item.label.reset();
     for (ClusterShare const& share : seen.shares) {
-      if (is_stuff(share.label) && given_to(share.label) == static_cast<std::int32_t>(i)) {
+      if (is_stuff(share.label) && owners_.owner(share.label) == i) {
         labels.push_back(share.label);
         if (share.blocks > most) {
           most = share.blocks;
@@ -213,26 +151,27 @@ private:
       believe(item, {Verdict::kSeen, 1.0}, now_, news_[found.item], config_.existence);
       count_look(item, true);
       begin_model(item, seen);
-      given_to_[found.cluster] = static_cast<std::int32_t>(found.item);
+      owners_.give(static_cast<LabelCode>(kFirstStuff + found.cluster), found.item);
     }
   }
 
   /// Large enough for a thing, nobody's, and not what things explain already.
   [[nodiscard]] bool is_unexplained(std::size_t c) const {
     SeenCluster const& seen = clusters_[c];
-    if (given_to_[c] >= 0 || seen.blocks.size() < static_cast<std::size_t>(kLeastBlocks)) {
+    auto const label = static_cast<LabelCode>(kFirstStuff + c);
+    if (owners_.owner(label) || seen.blocks.size() < kLeastBlocksOfThing) {
       return false;
     }
-    auto const label = static_cast<LabelCode>(kFirstStuff + c);
     std::size_t explained = 0;
     for (std::size_t const block : seen.blocks) {
       std::int32_t const owner = looks_.owners()[block];
-      if (owner < 0 || is_base_of(static_cast<std::size_t>(owner), label)) {
+      if (owner < 0 || owners_.is_base_of(static_cast<std::size_t>(owner), label)) {
         continue;
       }
       auto const& shares = look(static_cast<std::size_t>(owner)).shares;
       auto const share = std::ranges::find(shares, label, &ClusterShare::label);
-      explained += share != shares.end() && share->agreement() >= kLeastAgreement ? 1U : 0U;
+      explained +=
+          share != shares.end() && share->agreement() >= kLeastAgreementOfCluster ? 1U : 0U;
     }
     return static_cast<double>(explained) <= kExplained * static_cast<double>(seen.blocks.size()) &&
            places_.share_known(seen.points_world, seen.lies_on < 0) <= kExplained &&
@@ -295,13 +234,14 @@ private:
   [[nodiscard]] std::optional<std::size_t> host_of(std::size_t j) {
     std::vector<std::pair<std::size_t, int>> blocks_in;
     for (ClusterShare const& share : look(j).shares) {
-      if (!is_stuff(share.label) || given_to(share.label) < 0) {
+      std::optional<std::size_t> const host =
+          is_stuff(share.label) ? owners_.owner(share.label) : std::nullopt;
+      if (!host) {
         continue;
       }
-      auto const host = static_cast<std::size_t>(given_to(share.label));
-      auto const found = std::ranges::find(blocks_in, host, &std::pair<std::size_t, int>::first);
+      auto const found = std::ranges::find(blocks_in, *host, &std::pair<std::size_t, int>::first);
       if (found == blocks_in.end()) {
-        blocks_in.emplace_back(host, share.blocks);
+        blocks_in.emplace_back(*host, share.blocks);
       } else {
         found->second += share.blocks;
       }
@@ -384,8 +324,7 @@ private:
   StuffLooks looks_;
   /// By label, from kFirstStuff on.
   std::vector<SeenCluster> clusters_;
-  /// The thing that each cluster is of, by its place in the belief; -1 for none.
-  std::vector<std::int32_t> given_to_;
+  ClusterOwners owners_;
   /// How much of the frame is news about each thing.
   std::vector<double> news_;
   /// Of each thing, before the frame.
