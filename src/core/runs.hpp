@@ -1,12 +1,7 @@
 #pragma once
 
-#include <algorithm>
-#include <bit>
 #include <cstddef>
-#include <cstdint>
 #include <span>
-
-#include "core/bits.hpp"
 
 namespace credo {
 
@@ -30,29 +25,6 @@ template <typename T>
     ++end;
   }
   return end;
-}
-
-/// Calls `visit(begin, end)` for each run in which two rows of one length both keep their values.
-template <typename A, typename B, typename Visit>
-void for_each_run(std::span<A const> a, std::span<B const> b, Visit const& visit) {
-  if (a.empty()) {
-    return;
-  }
-  std::size_t const last = a.size() - 1;
-  std::size_t begin = 0;
-  for (std::size_t word = 0; word < last; word += kWordBits) {
-    A const* const at_a = a.data() + word;
-    B const* const at_b = b.data() + word;
-    std::uint64_t ends = bits_where(std::min(kWordBits, last - word), [&](std::size_t i) {
-      return ((at_a[i] != at_a[i + 1] ? 1 : 0) | (at_b[i] != at_b[i + 1] ? 1 : 0)) != 0;
-    });
-    for (; ends != 0; ends &= ends - 1) {
-      std::size_t const end = word + static_cast<std::size_t>(std::countr_zero(ends)) + 1;
-      visit(begin, end);
-      begin = end;
-    }
-  }
-  visit(begin, a.size());
 }
 
 }  // namespace credo

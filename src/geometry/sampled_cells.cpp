@@ -63,10 +63,10 @@ CellSums sampled_cells(OrganizedCloud const& cloud, std::span<PixelRun const> ru
     CellSums cells(sampling.spacing_m, T_grid_camera);
     CellFeed feed(cells);
     for (auto const [begin, end] : runs) {
-      std::size_t const step = sampling.step_px(cloud.z[begin]);
+      PixelSteps const steps = sampling.steps_px(cloud.at(begin));
       std::size_t const u = begin % width;
-      if (begin / width % step == 0) {
-        feed.add(cloud, begin + (step - u % step) % step, end, step);
+      if (begin / width % steps.v == 0) {
+        feed.add(cloud, begin + (steps.u - u % steps.u) % steps.u, end, steps.u);
       }
     }
     feed.flush();

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <span>
 
 #include "core/cloud.hpp"
+#include "core/plane.hpp"
 #include "core/se3.hpp"
 #include "geometry/cell_sums.hpp"
 
@@ -15,6 +17,14 @@ struct PixelRun {
   std::size_t end = 0;
 };
 
+/// Every so manieth pixel of a row, of every so manieth row.
+struct PixelSteps {
+  std::size_t u = 1;
+  std::size_t v = 1;
+
+  friend bool operator==(PixelSteps const&, PixelSteps const&) = default;
+};
+
 /// Which of a surface's pixels are summed up: as many as its cells need, far fewer than a surface
 /// close by has.
 struct PixelSampling {
@@ -22,19 +32,34 @@ struct PixelSampling {
   float spacing_m = 0.0F;
   /// Of the camera, in pixels; 0 for all pixels, however many.
   float focal_px = 0.0F;
+  /// Of a plane (camera frame), its normal by its offset; 0 for what faces the camera, or may.
+  Eigen::Vector3f slant_per_m = Eigen::Vector3f::Zero();
 
-  /// 1, 2 or 4: of a surface at this depth that faces the camera, every so manieth pixel of every
-  /// so manieth row puts one and a half or more a side into each cell.
-  [[nodiscard]] std::size_t step_px(float depth_m) const {
+  /// Of the plane that the pixels show.
+  [[nodiscard]] static PixelSampling of_plane(float spacing_m, float focal_px,
+                                              Plane const& plane_camera) {
+    return {spacing_m, focal_px, (plane_camera.normal / plane_camera.offset_m).cast<float>()};
+  }
+
+  /// 1, 2 or 4 each: around a point of the surface (camera frame) so many pixels put one and a half
+  /// or more a side into each cell. All of a plane that the camera is in.
+  ///
+  /// Where the plane n p = d is seen at P, a pixel further is z / f (e - n_e / d P) on it.
+  [[nodiscard]] PixelSteps steps_px(Eigen::Vector3f const& p_camera) const {
     constexpr float kPerCell = 1.5F;
     float const spacing_px = focal_px * spacing_m / kPerCell;
-    return 4.0F * depth_m <= spacing_px ? 4 : 2.0F * depth_m <= spacing_px ? 2 : 1;
+    auto const step = [&](Eigen::Index axis) -> std::size_t {
+      Eigen::Vector3f const along = Eigen::Vector3f::Unit(axis) - slant_per_m[axis] * p_camera;
+      float const apart_m = p_camera.z() * along.norm();
+      return 4.0F * apart_m <= spacing_px ? 4 : 2.0F * apart_m <= spacing_px ? 2 : 1;
+    };
+    return {step(0), step(1)};
   }
 };
 
 /// The points of `runs`, in their order, in cells of the frame `T_grid_camera` leads to. Of each
-/// run the pixels that its first one's depth asks for (PixelSampling::step_px, counted from the
-/// image's first row and column); but all of all runs where that makes few cells (kFewCells):
+/// run the pixels that its first one asks for (PixelSampling::steps_px, counted from the image's
+/// first row and column); but all of all runs where that makes few cells (kFewCells):
 /// what is small or thin keeps whatever it has. Points of `cloud` (camera frame) are finite in the
 /// runs. No runs give no cells.
 [[nodiscard]] CellSums sampled_cells(OrganizedCloud const& cloud, std::span<PixelRun const> runs,

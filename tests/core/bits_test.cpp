@@ -18,15 +18,5 @@ TEST(Bits, AreCounted) {
   EXPECT_EQ(count_bits(~std::uint64_t{0}), 64U);
 }
 
-TEST(Bits, TellWhatPasses) {
-  std::mt19937_64 random(1);
-  for (std::size_t count = 0; count <= kWordBits; ++count) {
-    std::uint64_t const wanted = random();
-    std::uint64_t const within = count < kWordBits ? (std::uint64_t{1} << count) - 1 : ~0ULL;
-    EXPECT_EQ(bits_where(count, [&](std::size_t i) { return ((wanted >> i) & 1U) != 0; }),
-              wanted & within);
-  }
-}
-
 }  // namespace
 }  // namespace credo

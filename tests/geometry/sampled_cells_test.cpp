@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "geometry/thinning.hpp"
@@ -13,7 +15,7 @@ namespace {
 using ::testing::IsEmpty;
 
 constexpr float kFocal_px = 500.0F;
-constexpr PixelSampling kSampling{0.02F, kFocal_px};
+PixelSampling const kSampling{0.02F, kFocal_px, Eigen::Vector3f::Zero()};
 
 /// A rough slope, from near on the left to far on the right.
 OrganizedCloud slope(int width, int height, float nearest_m, float farthest_m) {
@@ -50,10 +52,11 @@ PointList literal_points(OrganizedCloud const& cloud, std::vector<PixelRun> cons
                          bool every_pixel) {
   PointList points;
   for (PixelRun const& run : runs) {
-    auto const step = every_pixel ? 1 : static_cast<int>(kSampling.step_px(cloud.z[run.begin]));
+    PixelSteps const steps = every_pixel ? PixelSteps{} : kSampling.steps_px(cloud.at(run.begin));
     for (std::size_t i = run.begin; i < run.end; ++i) {
       Pixel const p = cloud.z.pixel(i);
-      if (p.u % step == 0 && p.v % step == 0) {
+      if (static_cast<std::size_t>(p.u) % steps.u == 0 &&
+          static_cast<std::size_t>(p.v) % steps.v == 0) {
         points.push_back(cloud.at(i));
       }
     }
@@ -86,7 +89,8 @@ TEST(SampledCells, OfFewOrWithoutAFocalLengthAreThoseOfAllPixels) {
   ASSERT_LT(all.size(), kFewCells);
   EXPECT_EQ(means_of(sampled_cells(small, runs, kSampling, Se3())), all);
   OrganizedCloud const large = slope(640, 97, 0.7F, 4.0F);
-  EXPECT_EQ(means_of(sampled_cells(large, torn_runs(large), {kSampling.spacing_m, 0.0F}, Se3())),
+  EXPECT_EQ(means_of(sampled_cells(large, torn_runs(large),
+                                   {kSampling.spacing_m, 0.0F, Eigen::Vector3f::Zero()}, Se3())),
             thin_points(literal_points(large, torn_runs(large), true), kSampling.spacing_m));
 }
 
@@ -98,11 +102,61 @@ TEST(SampledCells, KeepWhatIsOnePixelWide) {
 }
 
 TEST(SampledCells, HaveOneAndAHalfPixelsASideOrMoreOfWhatFacesTheCamera) {
-  EXPECT_EQ(kSampling.step_px(1.66F), 4U);
-  EXPECT_EQ(kSampling.step_px(1.67F), 2U);
-  EXPECT_EQ(kSampling.step_px(3.33F), 2U);
-  EXPECT_EQ(kSampling.step_px(3.34F), 1U);
-  EXPECT_EQ((PixelSampling{0.02F, 0.0F}).step_px(0.5F), 1U);
+  auto const steps_at = [](float depth_m) { return kSampling.steps_px({0.1F, 0.2F, depth_m}); };
+  EXPECT_EQ(steps_at(1.66F), (PixelSteps{4, 4}));
+  EXPECT_EQ(steps_at(1.67F), (PixelSteps{2, 2}));
+  EXPECT_EQ(steps_at(3.33F), (PixelSteps{2, 2}));
+  EXPECT_EQ(steps_at(3.34F), (PixelSteps{1, 1}));
+  EXPECT_EQ((PixelSampling{0.02F, 0.0F, Eigen::Vector3f::Zero()}).steps_px({0.0F, 0.0F, 0.5F}),
+            (PixelSteps{1, 1}));
+}
+
+/// Where the ray through a place of the image meets a plane.
+Eigen::Vector3f seen_at(Plane const& plane, double u, double v) {
+  Eigen::Vector3d const ray(u / kFocal_px, v / kFocal_px, 1.0);
+  return (ray * (plane.offset_m / plane.normal.dot(ray))).cast<float>();
+}
+
+// Steps are as wide as they may be, and no wider: of points on planes, however they are turned.
+TEST(SampledCells, HaveOneAndAHalfPixelsASideOfAPlaneAtAnyAngle) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  int seen = 0;
+  int unlike = 0;
+  for (int k = 0; k < 2000; ++k) {
+    Plane const plane{Eigen::Vector3d(any(random), any(random), any(random)).normalized(),
+                      1.0 + any(random)};
+    double const u = 200.0 * any(random);
+    double const v = 200.0 * any(random);
+    Eigen::Vector3f const p = seen_at(plane, u, v);
+    if (!(p.z() > 0.3F && p.z() < 5.0F)) {
+      continue;
+    }
+    ++seen;
+    PixelSteps const steps =
+        PixelSampling::of_plane(kSampling.spacing_m, kFocal_px, plane).steps_px(p);
+    // A short way along the image, by which no more than by a pixel the scale changes.
+    constexpr double kWay_px = 0.01;
+    double const apart_u_m = (seen_at(plane, u + kWay_px, v) - p).norm() / kWay_px;
+    double const apart_v_m = (seen_at(plane, u, v + kWay_px) - p).norm() / kWay_px;
+    for (auto const& [step, apart_m] : {std::pair(steps.u, apart_u_m), {steps.v, apart_v_m}}) {
+      double const most = kSampling.spacing_m / 1.5 / apart_m;
+      std::size_t const widest = most >= 4.2 ? 4 : most >= 2.1 ? 2 : 1;
+      std::size_t const least = most >= 3.8 && most < 4.2   ? 2
+                                : most >= 1.9 && most < 2.1 ? 1
+                                                            : widest;
+      EXPECT_GE(step, least);
+      EXPECT_LE(static_cast<double>(step), 1.05 * std::max(most, 1.0));
+    }
+    unlike += steps.u == steps.v ? 0 : 1;
+  }
+  EXPECT_GT(seen, 500);
+  EXPECT_GT(unlike, 100);
+}
+
+TEST(SampledCells, OfAPlaneThatTheCameraIsInAreThoseOfAllPixels) {
+  Plane const plane{Eigen::Vector3d::UnitY(), 0.0};
+  EXPECT_EQ(PixelSampling::of_plane(0.02F, kFocal_px, plane).steps_px({0.1F, 0.0F, 0.5F}).v, 1U);
 }
 
 TEST(SampledCells, OfNothing) {

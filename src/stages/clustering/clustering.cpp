@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/runs.hpp"
+#include "geometry/label_bits.hpp"
 #include "geometry/reachability.hpp"
 #include "stages/clustering/firm_pixels.hpp"
 #include "stages/clustering/label_spreading.hpp"
@@ -165,7 +165,8 @@ Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals, Segment
   }
   // Of segments, points as many as cells need; the thesis' clusters have all of them.
   PixelSampling const sampling{static_cast<float>(config.point_spacing_m),
-                               has_segments ? static_cast<float>(frame.intrinsics.fx_px) : 0.0F};
+                               has_segments ? static_cast<float>(frame.intrinsics.fx_px) : 0.0F,
+                               Eigen::Vector3f::Zero()};
   segmentation.stuff =
       stuff_clusters(frame.cloud_camera,
                      has_segments ? firm_runs(frame.cloud_camera.z, labels) : stuff_runs(labels),

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <functional>
 #include <utility>
+#include <vector>
 
-#include "core/runs.hpp"
 #include "geometry/segment_shares.hpp"
 #include "stages/planes/is_floor.hpp"
-#include "stages/planes/labelled_pixels.hpp"
 
 namespace credo {
 namespace {
@@ -30,62 +29,44 @@ CountedPixels whole_segments(CountedPixels pixels, CountedPixels const& unassign
 }
 
 /// What floor and walls have of the segments.
-struct SegmentsHeld {
-  Grid<std::int32_t> const* labels;
-  std::size_t surfaces;
-  /// Of each segment: pixels without known objects', and those that any surface has.
-  std::vector<std::uint32_t> all, explained;
-  /// Of each segment, surface after surface: pixels that it has.
-  std::vector<std::uint32_t> held;
-
-  [[nodiscard]] std::size_t segment_of(std::size_t pixel) const {
-    return static_cast<std::size_t>((*labels)[pixel]);
+class SegmentsHeld {
+public:
+  SegmentsHeld(SegmentPieces const& pieces, std::vector<FoundSurface> const& found,
+               CountedPixels const& free)
+      : free_(pieces.counts(free.pixels)), explained_(free_.size(), 0) {
+    // A later plane may be more of the same floor: one counts for both.
+    std::vector<std::size_t> last(kFirstObject, 0);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      last[found[k].label] = k;
+    }
+    held_.assign(found.size(), std::vector<std::uint32_t>(free_.size(), 0));
+    for (FoundSurface const& surface : found) {
+      std::vector<std::uint32_t> const counts = pieces.counts(surface.pixels.pixels);
+      for (auto* const sums : {&explained_, &held_[last[surface.label]]}) {
+        std::ranges::transform(*sums, counts, sums->begin(), std::plus());
+      }
+    }
   }
+
   [[nodiscard]] bool mostly(std::size_t segment) const {
-    return segment != 0 && explained[segment] >= kMostlyShare * all[segment];
+    return segment != 0 && explained_[segment] >= kMostlyShare * free_[segment];
   }
   [[nodiscard]] bool hardly(std::size_t segment, std::size_t surface) const {
-    return held[segment * surfaces + surface] <= kHardlyShare * all[segment];
+    return held_[surface][segment] <= kHardlyShare * free_[segment];
   }
-};
 
-SegmentsHeld segments_held(Segmentation const& segmentation,
-                           std::vector<FoundSurface> const& found) {
-  SegmentsHeld result{&segmentation.segments.labels, found.size(), {}, {}, {}};
-  result.all.assign(segmentation.segments.pixel_counts.size() + 1, 0);
-  result.explained.assign(result.all.size(), 0);
-  result.held.assign(result.all.size() * found.size(), 0);
-  // A later plane may be more of the same floor: one counts for both.
-  std::vector<std::size_t> surface_of(kFirstObject, found.size());
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    surface_of[found[k].label] = k;
-  }
-  for_each_run(std::span<LabelCode const>(segmentation.labels),
-               std::span<std::int32_t const>(segmentation.segments.labels),
-               [&](std::size_t begin, std::size_t end) {
-                 LabelCode const label = segmentation.labels[begin];
-                 if (label == kNoDepth || label >= kFirstObject) {
-                   return;
-                 }
-                 auto const pixels = static_cast<std::uint32_t>(end - begin);
-                 std::size_t const segment = result.segment_of(begin);
-                 result.all[segment] += pixels;
-                 if (surface_of[label] < found.size()) {
-                   result.explained[segment] += pixels;
-                   result.held[segment * found.size() + surface_of[label]] += pixels;
-                 }
-               });
-  return result;
-}
+private:
+  /// Of each segment: pixels that floor and walls could have, and those that any of them has.
+  std::vector<std::uint32_t> free_, explained_;
+  /// Of each surface, by segment.
+  std::vector<std::vector<std::uint32_t>> held_;
+};
 
 /// Of the segments that floor and walls hold most of, the rest to the nearest; takes it out of what
 /// is unassigned.
 void complete_segments(PlaneView const& view, std::vector<FoundSurface> const& found,
-                       CountedPixels& unassigned, Segmentation& segmentation) {
-  if (found.empty() || segmentation.segments.labels.empty()) {
-    return;
-  }
-  SegmentsHeld const held = segments_held(segmentation, found);
+                       SegmentsHeld const& held, CountedPixels& unassigned,
+                       Segmentation& segmentation) {
   PlaneTolerance const near = near_tolerance(view.tolerance, 0.0F);
   CountedPixels const open = view.pieces.where(
       unassigned.pixels, [&](std::size_t segment) { return held.mostly(segment); });
@@ -128,25 +109,29 @@ void complete_planes(PlaneView const& view, std::vector<FoundSurface> const& fou
   constexpr float kAllBut = 0.5F;
   PlaneTolerance const close{kAllBut * view.tolerance.fixed_m,
                              kAllBut * view.tolerance.noise_sigmas, 0.0F};
-  for (auto const& [label, plane_camera] : found) {
-    CountedPixels joining = inliers_among(view, plane_camera, unassigned.pixels, close);
+  for (FoundSurface const& surface : found) {
+    CountedPixels joining = inliers_among(view, surface.camera, unassigned.pixels, close);
     joining = whole_segments(std::move(joining), unassigned, view.pieces);
-    if (label == kFloor) {
+    if (surface.label == kFloor) {
       joining = low_pixels(view, std::move(joining));
     }
-    joining.pixels.for_each([&, code = label](std::size_t i) { segmentation.labels[i] = code; });
+    joining.pixels.for_each([&](std::size_t i) { segmentation.labels[i] = surface.label; });
     unassigned.remove(joining);
   }
 }
 
 }  // namespace
 
-void fill_holes(PlaneView const& view, std::vector<FoundSurface> const& found,
+void fill_holes(PlaneView const& view, std::vector<FoundSurface> const& found, CountedPixels free,
                 Segmentation& segmentation) {
-  CountedPixels unassigned =
-      unassigned_pixels(segmentation.labels, segmentation.segments, view.pieces);
-  complete_segments(view, found, unassigned, segmentation);
-  complete_planes(view, found, std::move(unassigned), segmentation);
+  SegmentsHeld const held(view.pieces, found, free);
+  for (FoundSurface const& surface : found) {
+    free.remove(surface.pixels);
+  }
+  if (!view.pieces.empty()) {
+    complete_segments(view, found, held, free, segmentation);
+  }
+  complete_planes(view, found, std::move(free), segmentation);
 }
 
 }  // namespace credo

@@ -8,10 +8,12 @@
 
 namespace credo {
 
-/// A floor or wall that has been found.
+/// A floor or wall that has been found, or more of the same floor.
 struct FoundSurface {
   LabelCode label;
   Plane camera;
+  /// That carry its label by now.
+  CountedPixels pixels;
 };
 
 /// Gives pixels that nothing has explained to floor and walls; the planes stay as fitted. Noise
@@ -21,7 +23,9 @@ struct FoundSurface {
 /// Of a segment that floor and walls hold most of together, the rest goes to the nearest of those
 /// that hold more than a little of it, as far as it keeps near. Other pixels join where they all
 /// but lie in a plane, whatever their normals.
-void fill_holes(PlaneView const& view, std::vector<FoundSurface> const& found,
+/// `free`: all pixels that floor and walls could have, these surfaces' own among them
+/// (unassigned_pixels() before the first was found).
+void fill_holes(PlaneView const& view, std::vector<FoundSurface> const& found, CountedPixels free,
                 Segmentation& segmentation);
 
 }  // namespace credo

@@ -111,16 +111,13 @@ struct CountedPixels {
   }
 };
 
-/// The pixels of an image of so many that pass.
-template <typename Test>
-CountedPixels pixels_where(std::size_t pixels, Test const& test) {
-  CountedPixels result{PixelSet(pixels), 0};
+/// Every pixel of an image of so many.
+inline CountedPixels all_pixels(std::size_t pixels) {
+  CountedPixels result{PixelSet(pixels), pixels};
   std::span<std::uint64_t> const words = result.pixels.words();
-  for (std::size_t w = 0; w < words.size(); ++w) {
-    std::size_t const begin = w * PixelSet::kWordBits;
-    words[w] = bits_where(std::min(PixelSet::kWordBits, pixels - begin),
-                          [&](std::size_t i) { return test(begin + i); });
-    result.count += count_bits(words[w]);
+  std::ranges::fill(words, ~std::uint64_t{0});
+  if (std::size_t const last = pixels % PixelSet::kWordBits; last != 0) {
+    words.back() = (std::uint64_t{1} << last) - 1;
   }
   return result;
 }

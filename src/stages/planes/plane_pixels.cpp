@@ -92,7 +92,9 @@ std::uint64_t turned_bits(FloatPlane const& plane, Words const& words, std::size
   return bits;
 }
 
-std::size_t mark_inliers(FloatPlane const& plane, Words const& words, std::uint64_t* inliers) {
+/// What only normals keep out goes to `turned`.
+std::size_t mark_inliers(FloatPlane const& plane, Words const& words, std::uint64_t* inliers,
+                         std::uint64_t* turned) {
   bool const by_angle = plane.tolerance.min_cosine > 0.0F;
   std::size_t count = 0;
   for (std::size_t w = 0; w < words.count; ++w) {
@@ -101,7 +103,8 @@ std::size_t mark_inliers(FloatPlane const& plane, Words const& words, std::uint6
     // Most words lie far from the plane: their normals need not be fetched.
     bits = bits == 0 ? 0 : bits & near_bits(plane, words, begin);
     if (bits != 0 && by_angle) {
-      bits &= ~turned_bits(plane, words, begin);
+      turned[w] = bits & turned_bits(plane, words, begin);
+      bits &= ~turned[w];
     }
     inliers[w] = bits;
     count += static_cast<std::size_t>(std::popcount(bits));
@@ -185,18 +188,25 @@ private:
 }  // namespace
 }  // namespace planes
 
+PlanePixels plane_pixels(Plane const& plane_camera, OrganizedCloud const& cloud,
+                         NormalMap const& normals, PixelSet const& among,
+                         PlaneTolerance const& tolerance) {
+  planes::FloatPlane const plane = planes::float_plane(plane_camera, tolerance);
+  planes::WordsOf words(cloud, normals, among);
+  PlanePixels found{{PixelSet(cloud.size()), 0}, PixelSet(cloud.size())};
+  std::uint64_t* const bits = found.inliers.pixels.words().data();
+  std::uint64_t* const turned = found.turned.words().data();
+  planes::Words const whole = words.whole();
+  found.inliers.count = HWY_DYNAMIC_DISPATCH(planes::mark_inliers)(plane, whole, bits, turned);
+  found.inliers.count += HWY_DYNAMIC_DISPATCH(planes::mark_inliers)(
+      plane, words.last(), bits + whole.count, turned + whole.count);
+  return found;
+}
+
 CountedPixels plane_inliers(Plane const& plane_camera, OrganizedCloud const& cloud,
                             NormalMap const& normals, PixelSet const& among,
                             PlaneTolerance const& tolerance) {
-  planes::FloatPlane const plane = planes::float_plane(plane_camera, tolerance);
-  planes::WordsOf words(cloud, normals, among);
-  CountedPixels inliers{PixelSet(cloud.size()), 0};
-  std::uint64_t* const bits = inliers.pixels.words().data();
-  planes::Words const whole = words.whole();
-  inliers.count = HWY_DYNAMIC_DISPATCH(planes::mark_inliers)(plane, whole, bits);
-  inliers.count +=
-      HWY_DYNAMIC_DISPATCH(planes::mark_inliers)(plane, words.last(), bits + whole.count);
-  return inliers;
+  return plane_pixels(plane_camera, cloud, normals, among, tolerance).inliers;
 }
 
 CountedPixels pixels_behind(Plane const& plane_camera, OrganizedCloud const& cloud,

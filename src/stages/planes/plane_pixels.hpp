@@ -39,6 +39,17 @@ struct PlaneTolerance {
                                           NormalMap const& normals, PixelSet const& among,
                                           PlaneTolerance const& tolerance);
 
+struct PlanePixels {
+  CountedPixels inliers;
+  /// Near enough, but their normals are turned too far. None where normals are left out.
+  PixelSet turned{0};
+};
+
+/// The same, and besides what only its normal keeps out.
+[[nodiscard]] PlanePixels plane_pixels(Plane const& plane_camera, OrganizedCloud const& cloud,
+                                       NormalMap const& normals, PixelSet const& among,
+                                       PlaneTolerance const& tolerance);
+
 /// Those of the pixels `among` that lie clear of the plane, by their tolerance, on the side that
 /// its normal does not point to.
 [[nodiscard]] CountedPixels pixels_behind(Plane const& plane_camera, OrganizedCloud const& cloud,

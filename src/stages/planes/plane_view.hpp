@@ -21,6 +21,7 @@ struct PlaneView {
   Se3 const& T_world_camera;
   /// Else nothing is floor.
   bool floor_at_zero;
+  float focal_px;
   PlanesConfig const& config;
   PlaneTolerance tolerance;
   PixelBoxes boxes;
@@ -46,12 +47,22 @@ struct PlaneView {
   return behind;
 }
 
+/// What belongs to a plane, and what only its normal keeps out.
+[[nodiscard]] inline PlanePixels plane_pixels_among(PlaneView const& view,
+                                                    Plane const& plane_camera,
+                                                    PixelSet const& pixels) {
+  return plane_pixels(plane_camera, view.cloud, view.normals,
+                      view.boxes.near(plane_camera, pixels, view.tolerance), view.tolerance);
+}
+
 /// A plane with its pixels.
 struct PixelPlane {
   Plane camera;
   /// The same plane in the world frame.
   Plane world;
   CountedPixels inliers;
+  /// Near enough to be its, but for their normals.
+  PixelSet turned{0};
   /// More pixels of its segments, not so exactly in the plane.
   CountedPixels joined{PixelSet(0), 0};
 };

@@ -29,6 +29,13 @@ PlaneTolerance tolerance_of(PlanesConfig const& config) {
                                              : 0.0F};
 }
 
+/// Of segments' planes, points as many as cells need; the thesis' planes have all of them.
+PixelSampling sampling_of(PlaneView const& view, Plane const& plane_camera) {
+  auto const spacing_m = static_cast<float>(view.config.point_spacing_m);
+  return PixelSampling::of_plane(spacing_m, view.pieces.empty() ? 0.0F : view.focal_px,
+                                 plane_camera);
+}
+
 /// Writes the label on all of the plane's pixels and returns the world points of those that lie in
 /// it, thinned.
 PointList label_pixels(PlaneView const& view, PixelPlane const& plane, LabelCode code,
@@ -46,21 +53,21 @@ PointList label_pixels(PlaneView const& view, PixelPlane const& plane, LabelCode
   plane.joined.pixels.for_each_run([&](std::size_t begin, std::size_t end) {
     std::fill(labels.data() + begin, labels.data() + end, code);
   });
-  // All pixels: what is seen at a grazing angle has none to spare.
-  PixelSampling const all_pixels{static_cast<float>(view.config.point_spacing_m), 0.0F};
   PointList points;
-  sampled_cells(view.cloud, runs, all_pixels, view.T_world_camera).append_means(0, points);
+  sampled_cells(view.cloud, runs, sampling_of(view, plane.camera), view.T_world_camera)
+      .append_means(0, points);
   return points;
 }
 
-void add_floor(PlaneView const& view, PixelPlane plane, Segmentation& segmentation) {
+/// Returns what of the plane is floor.
+PixelPlane add_floor(PlaneView const& view, PixelPlane plane, Segmentation& segmentation) {
   plane.inliers = low_pixels(view, std::move(plane.inliers));
   plane.joined = low_pixels(view, std::move(plane.joined));
   PointList added = label_pixels(view, plane, kFloor, segmentation.labels);
   std::size_t const pixel_count = plane.inliers.count + plane.joined.count;
   if (!segmentation.floor) {
     segmentation.floor = FloorObservation{plane.world, std::move(added), pixel_count};
-    return;
+    return plane;
   }
   // A later plane that passes too is more of the same floor; the largest one's fit stays.
   FloorObservation& floor = *segmentation.floor;
@@ -68,6 +75,15 @@ void add_floor(PlaneView const& view, PixelPlane plane, Segmentation& segmentati
   floor.points_world =
       thin_points(floor.points_world, static_cast<float>(view.config.point_spacing_m));
   floor.pixel_count += pixel_count;
+  return plane;
+}
+
+/// A plane of the picture that has been labelled.
+FoundSurface found_surface(LabelCode label, PixelPlane plane) {
+  if (plane.joined.count > 0) {
+    plane.inliers.insert(plane.joined);
+  }
+  return {label, plane.camera, std::move(plane.inliers)};
 }
 
 void add_wall(PlaneView const& view, PixelPlane const& plane, Segmentation& segmentation) {
@@ -88,26 +104,25 @@ Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmen
                        normals,
                        segmentation.T_world_camera,
                        segmentation.floor_at_zero,
+                       static_cast<float>(frame.intrinsics.fx_px),
                        config,
                        tolerance_of(config),
                        PixelBoxes(frame.cloud_camera),
                        SegmentPieces(segmentation.segments),
                        pixels_with_depth(segmentation.labels)};
-  RemainingPoints remaining(
-      view, segmentation.segments,
-      unassigned_pixels(segmentation.labels, segmentation.segments, view.pieces));
+  CountedPixels free = unassigned_pixels(segmentation.labels, segmentation.segments, view.pieces);
+  RemainingPoints remaining(view, segmentation.segments, free);
   std::vector<FoundSurface> found;
   auto const label = [&](PixelPlane plane) {
     if (is_floor(view, plane)) {
       remaining.settle(plane);
-      found.push_back({kFloor, plane.camera});
-      add_floor(view, std::move(plane), segmentation);
+      found.push_back(found_surface(kFloor, add_floor(view, std::move(plane), segmentation)));
     } else if (segmentation.walls.size() < kMaxWalls && is_wall(view, plane)) {
       remaining.settle(plane);
       // It may have held hardly anything of all its segments.
       if (plane.inliers.count >= static_cast<std::size_t>(config.wall_min_pixels)) {
         add_wall(view, plane, segmentation);
-        found.push_back({segmentation.walls.back().label, plane.camera});
+        found.push_back(found_surface(segmentation.walls.back().label, std::move(plane)));
       }
     }
   };
@@ -128,7 +143,7 @@ Segmentation extract_planes(Frame const& frame, NormalMap const& normals, Segmen
     }
   }
   if (view.tolerance.min_cosine > 0.0F) {
-    fill_holes(view, found, segmentation);
+    fill_holes(view, found, std::move(free), segmentation);
   }
   return segmentation;
 }

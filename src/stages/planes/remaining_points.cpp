@@ -75,18 +75,18 @@ bool RemainingPoints::may_be_wall(FoundPlane const& found) const {
       shown.push_back(static_cast<std::uint32_t>(i));
     }
   }
-  return credo::may_be_wall(view_, oriented(found.plane, {PixelSet(0), 0}), std::move(shown),
+  return credo::may_be_wall(view_, oriented(found.plane, {{PixelSet(0), 0}}), std::move(shown),
                             sample_, whole_sample_, pixels_per_point_);
 }
 
 std::optional<PixelPlane> RemainingPoints::take_found(FoundPlane const& found) {
-  CountedPixels inliers = inliers_among(view_, found.plane, pixels_.pixels, view_.tolerance);
-  if (inliers.count < static_cast<std::size_t>(view_.config.min_plane_pixels)) {
+  PlanePixels pixels = plane_pixels_among(view_, found.plane, pixels_.pixels);
+  if (pixels.inliers.count < static_cast<std::size_t>(view_.config.min_plane_pixels)) {
     return std::nullopt;
   }
-  pixels_.remove(inliers);
+  pixels_.remove(pixels.inliers);
   sample_.remove(found.inliers);
-  return oriented(found.plane, std::move(inliers));
+  return oriented(found.plane, std::move(pixels));
 }
 
 bool RemainingPoints::is_upright(Plane const& plane_camera) const {
@@ -161,10 +161,8 @@ void RemainingPoints::settle(PixelPlane& plane) {
 
 std::vector<RemainingPoints::Held> RemainingPoints::held_of_segments(
     PixelPlane const& plane) const {
-  PlaneTolerance const by_distance{view_.tolerance.fixed_m, view_.tolerance.noise_sigmas, 0.0F};
-  CountedPixels const in_plane = inliers_among(view_, plane.camera, pixels_.pixels, by_distance);
   std::vector<std::uint32_t> const inliers = view_.pieces.counts(plane.inliers.pixels);
-  std::vector<std::uint32_t> const turned = view_.pieces.counts(in_plane.pixels);
+  std::vector<std::uint32_t> const turned = view_.pieces.counts(plane.turned);
   std::vector<Held> held(eligible_.size(), Held::kPartly);
   for (std::size_t k = 1; k < held.size(); ++k) {
     if (inliers[k] <= kHardlyShare * eligible_[k]) {
@@ -187,12 +185,13 @@ void RemainingPoints::refresh_sample() {
 }
 
 /// With the normal up.
-PixelPlane RemainingPoints::oriented(Plane const& camera, CountedPixels inliers) const {
+PixelPlane RemainingPoints::oriented(Plane const& camera, PlanePixels pixels) const {
   Plane const world = transformed(view_.T_world_camera, camera);
   bool const up = world.normal.z() >= 0.0;
   return PixelPlane{.camera = up ? camera : camera.flipped(),
                     .world = up ? world : world.flipped(),
-                    .inliers = std::move(inliers)};
+                    .inliers = std::move(pixels.inliers),
+                    .turned = std::move(pixels.turned)};
 }
 
 }  // namespace credo

@@ -60,7 +60,7 @@ private:
     return flags;
   }
   [[nodiscard]] bool may_be_wall(FoundPlane const& found) const;
-  [[nodiscard]] PixelPlane oriented(Plane const& camera, CountedPixels inliers) const;
+  [[nodiscard]] PixelPlane oriented(Plane const& camera, PlanePixels pixels) const;
 
   PlaneView const& view_;
   Segments const& segments_;

@@ -10,6 +10,7 @@
 
 #include "core/bits.hpp"
 #include "core/segments.hpp"
+#include "geometry/label_bits.hpp"
 #include "stages/planes/pixel_set.hpp"
 
 namespace credo {
@@ -20,18 +21,19 @@ class SegmentPieces {
 public:
   /// `segments` outlives this; empty ones have no pieces.
   explicit SegmentPieces(Segments const& segments)
-      : segments_(segments),
-        ends_(pixels_where(std::max<std::size_t>(segments.labels.size(), 1) - 1,
-                           [labels = segments.labels.data()](std::size_t i) {
-                             return labels[i] != labels[i + 1];
-                           })) {}
+      : segments_(segments), ends_(std::max<std::size_t>(segments.labels.size(), 1) - 1) {
+    if (segments.labels.size() > 1) {
+      std::int32_t const* const labels = segments.labels.data();
+      mark_different(labels, labels + 1, segments.labels.size() - 1, ends_.words().data());
+    }
+  }
 
   [[nodiscard]] bool empty() const { return segments_.labels.empty(); }
 
   /// Calls `visit(segment, word, bits)` for pixels of one segment within one word, in raster order.
   template <typename Visit>
   void for_each(PixelSet const& pixels, Visit const& visit) const {
-    std::span<std::uint64_t const> const ends = ends_.pixels.words();
+    std::span<std::uint64_t const> const ends = ends_.words();
     for (std::size_t w = 0; w < pixels.words().size(); ++w) {
       // The image's last pixel may be a word of its own.
       std::uint64_t const ends_here = w < ends.size() ? ends[w] : 0;
@@ -75,7 +77,7 @@ public:
 private:
   Segments const& segments_;
   /// Pixels after which, in raster order, comes another segment's.
-  CountedPixels ends_;
+  PixelSet ends_;
 };
 
 }  // namespace credo

@@ -257,15 +257,6 @@ HWY_INLINE void store_bits(D d, std::size_t count, MaskAt const& mask_at, std::u
   }
 }
 
-void different_bits_lanes(std::int32_t const* a, std::int32_t const* b, std::size_t count,
-                          std::uint64_t* out) {
-  DI const d;
-  store_bits(
-      d, count,
-      [&](std::size_t u) HWY_ATTR { return hn::Ne(hn::LoadU(d, a + u), hn::LoadU(d, b + u)); },
-      out);
-}
-
 void at_least_bits_lanes(std::uint8_t const* row, std::uint8_t least, std::size_t count,
                          std::uint64_t* out) {
   D8 const d;
@@ -315,7 +306,6 @@ HWY_EXPORT(concavity_row_lanes);
 HWY_EXPORT(crease_row_lanes);
 HWY_EXPORT(thicken_row_lanes);
 HWY_EXPORT(worth_row_lanes);
-HWY_EXPORT(different_bits_lanes);
 HWY_EXPORT(at_least_bits_lanes);
 HWY_EXPORT(higher_bits_lanes);
 HWY_EXPORT(front_bits_lanes);
@@ -349,11 +339,6 @@ void thicken_row(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t
 void worth_row(std::int16_t const* disparity, std::uint8_t const* thickness, std::size_t count,
                std::uint8_t* out) {
   HWY_DYNAMIC_DISPATCH(worth_row_lanes)(disparity, thickness, count, out);
-}
-
-void different_bits(std::int32_t const* a, std::int32_t const* b, std::size_t count,
-                    std::uint64_t* out) {
-  HWY_DYNAMIC_DISPATCH(different_bits_lanes)(a, b, count, out);
 }
 
 void at_least_bits(std::uint8_t const* row, std::uint8_t least, std::size_t count,

@@ -58,10 +58,6 @@ void worth_row(std::int16_t const* disparity, std::uint8_t const* thickness, std
 
 // Bits: one a pixel, 64 a word, as many words as `count` needs; those beyond it are 0.
 
-/// 1 where the labels differ.
-void different_bits(std::int32_t const* a, std::int32_t const* b, std::size_t count,
-                    std::uint64_t* out);
-
 /// 1 where a value is at least that.
 void at_least_bits(std::uint8_t const* row, std::uint8_t least, std::size_t count,
                    std::uint64_t* out);

@@ -91,8 +91,8 @@ private:
 
   void look_up(int v) {
     int const width = labels_.width();
-    border_bits(labels_.row(v - 1).data(), labels_.row(v).data(), static_cast<std::size_t>(width),
-                borders_);
+    mark_different(labels_.row(v - 1).data(), labels_.row(v).data(),
+                   static_cast<std::size_t>(width), borders_.data());
     for (int u = borders_.next_set(0); u < width; u = borders_.next_set(u + 1)) {
       look({u, v - 1}, {u, v});
     }

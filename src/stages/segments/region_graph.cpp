@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "geometry/label_bits.hpp"
 #include "stages/segments/disc_sums.hpp"
-#include "stages/segments/kernels.hpp"
 #include "stages/segments/row_bits.hpp"
 
 namespace credo::segments {
@@ -88,8 +88,8 @@ private:
   void look_along(int v) {
     std::int32_t const* const row = labels_.row(v);
     int const width = map_.width();
-    different_bits(row, row + 1, static_cast<std::size_t>(width), beside_.data());
-    different_bits(row, row + labels_.stride(), static_cast<std::size_t>(width), below_.data());
+    mark_different(row, row + 1, static_cast<std::size_t>(width), beside_.data());
+    mark_different(row, row + labels_.stride(), static_cast<std::size_t>(width), below_.data());
     int begin = 0;
     for (int u = next_border(0); u < width; u = next_border(u + 1)) {
       if (beside_.contains(u)) {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/runs.hpp"
+#include "geometry/label_bits.hpp"
 #include "geometry/segment_shares.hpp"
 
 namespace credo {
@@ -44,10 +44,9 @@ struct Owners {
 template <typename Visit>
 void for_each_piece(Segmentation const& segmentation, Visit const& visit) {
   std::span<std::int32_t const> const segments(segmentation.segments.labels);
-  for_each_run(std::span<LabelCode const>(segmentation.labels), segments,
-               [&](std::size_t begin, std::size_t end) {
-                 visit(static_cast<std::size_t>(segments[begin]), begin, end);
-               });
+  for_each_run(segmentation.labels, segments, [&](std::size_t begin, std::size_t end) {
+    visit(static_cast<std::size_t>(segments[begin]), begin, end);
+  });
 }
 
 std::vector<Owners> owners_of(Segmentation const& segmentation) {

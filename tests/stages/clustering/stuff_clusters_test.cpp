@@ -13,7 +13,7 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 constexpr float kSpacing = 0.02F;
-constexpr PixelSampling kAllPixels{kSpacing, 0.0F};
+PixelSampling const kAllPixels{kSpacing, 0.0F, Eigen::Vector3f::Zero()};
 
 // A slope with stripes of labels, some of them torn, some explained by something else.
 struct Scene {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "stages/planes/small_shots.hpp"
+
 namespace credo {
 namespace {
 
@@ -26,7 +28,7 @@ OrganizedCloud some_cloud(int width, int height, unsigned seed) {
 }
 
 PixelSet valid_pixels(OrganizedCloud const& cloud) {
-  return pixels_where(cloud.size(), [&](std::size_t i) { return cloud.valid(i); }).pixels;
+  return test::pixels_where(cloud.size(), [&](std::size_t i) { return cloud.valid(i); }).pixels;
 }
 
 void expect_no_inlier_left_out() {

@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
 #include <vector>
+
+#include "stages/planes/labelled_pixels.hpp"
+#include "stages/planes/small_shots.hpp"
 
 namespace credo {
 namespace {
@@ -66,22 +71,39 @@ TEST(PixelSet, VisitsRunsThatEndWithTheirWord) {
   }
 }
 
-TEST(PixelSet, OfPixelsThatPass) {
+TEST(PixelSet, OfAllPixels) {
   for (std::size_t const size : {0U, 1U, 63U, 64U, 65U, 700U}) {
-    PixelSet const expected = some_pixels(size);
-    CountedPixels const passing =
-        pixels_where(size, [&](std::size_t i) { return expected.contains(i); });
-    EXPECT_EQ(passing.count, every(expected, 1).size());
-    EXPECT_EQ(every(passing.pixels, 1), every(expected, 1));
+    CountedPixels const all = all_pixels(size);
+    CountedPixels const each = test::pixels_where(size, [](std::size_t /*i*/) { return true; });
+    EXPECT_EQ(all.count, size);
+    EXPECT_TRUE(std::ranges::equal(all.pixels.words(), each.pixels.words()));
+  }
+}
+
+TEST(PixelSet, OfPixelsWithALabel) {
+  for (int const width : {0, 1, 63, 64, 65, 700}) {
+    LabelMap labels(width, 1, kUnassigned);
+    for (int u = 0; u < width; u += 3) {
+      labels[{u, 0}] = u % 2 == 0 ? kNoDepth : kFloor;
+    }
+    for (auto const& [found, wanted] :
+         {std::pair(pixels_labelled(labels, kFloor),
+                    test::pixels_where(labels.size(), [&](auto i) { return labels[i] == kFloor; })),
+          std::pair(pixels_with_depth(labels), test::pixels_where(labels.size(), [&](auto i) {
+                      return labels[i] != kNoDepth;
+                    }))}) {
+      EXPECT_EQ(found.count, wanted.count);
+      EXPECT_TRUE(std::ranges::equal(found.pixels.words(), wanted.pixels.words()));
+    }
   }
 }
 
 TEST(PixelSet, CountsWhatComesInManyAtOnce) {
-  CountedPixels pixels = pixels_where(200, [](std::size_t i) { return i % 2 == 0; });
+  CountedPixels pixels = test::pixels_where(200, [](std::size_t i) { return i % 2 == 0; });
   pixels.insert(1, std::uint64_t{2});
   EXPECT_TRUE(pixels.pixels.contains(65));
   EXPECT_EQ(pixels.count, 101U);
-  pixels.insert(pixels_where(200, [](std::size_t i) { return i == 67 || i == 69; }));
+  pixels.insert(test::pixels_where(200, [](std::size_t i) { return i == 67 || i == 69; }));
   EXPECT_TRUE(pixels.pixels.contains(69));
   EXPECT_EQ(pixels.count, 103U);
 }

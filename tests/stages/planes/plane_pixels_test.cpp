@@ -56,28 +56,36 @@ struct Literal {
     Eigen::Vector3f const n = plane.normal.cast<float>();
     float const cosine = std::abs(n.x() * m.x() + n.y() * m.y() + n.z() * m.z());
     bool const turned = tolerance.min_cosine > 0.0F && cosine < tolerance.min_cosine;
-    return std::abs(distance_m(p)) <= tolerance.distance_m(p.z()) && !turned;
+    return is_near(p) && !turned;
+  }
+  [[nodiscard]] bool is_near(Eigen::Vector3f const& p) const {
+    return std::abs(distance_m(p)) <= tolerance.distance_m(p.z());
   }
 };
 
 void expect_equals_literal(Points const& points, PlaneTolerance const& tolerance) {
   Literal const literal{some_plane(), tolerance};
-  CountedPixels const inliers =
-      plane_inliers(literal.plane, points.cloud, points.normals, points.asked, tolerance);
+  auto const [inliers, turned] =
+      plane_pixels(literal.plane, points.cloud, points.normals, points.asked, tolerance);
   CountedPixels const behind = pixels_behind(literal.plane, points.cloud, points.asked, tolerance);
   std::size_t count = 0;
+  std::size_t count_turned = 0;
   std::size_t count_behind = 0;
   for (std::size_t i = 0; i < points.cloud.size(); ++i) {
     bool const asked = points.asked.contains(i);
     bool const belongs = asked && literal.belongs(points.cloud.at(i), points.normals.at(i));
     ASSERT_EQ(inliers.pixels.contains(i), belongs) << "pixel " << i;
     count += belongs ? 1 : 0;
+    bool const is_turned = asked && literal.is_near(points.cloud.at(i)) && !belongs;
+    ASSERT_EQ(turned.contains(i), is_turned) << "pixel " << i;
+    count_turned += is_turned ? 1 : 0;
     bool const is_behind =
         asked && literal.distance_m(points.cloud.at(i)) < -tolerance.distance_m(points.cloud.z[i]);
     ASSERT_EQ(behind.pixels.contains(i), is_behind) << "pixel " << i;
     count_behind += is_behind ? 1 : 0;
   }
   EXPECT_EQ(inliers.count, count);
+  EXPECT_EQ(count_turned > 0, tolerance.min_cosine > 0.0F && points.cloud.size() > 5);
   EXPECT_EQ(behind.count, count_behind);
 }
 

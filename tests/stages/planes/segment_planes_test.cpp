@@ -24,6 +24,7 @@ std::vector<Plane> suggested(Shot const& shot, Segments const& segments, bool fl
                        shot.normals,
                        shot.T_world_camera,
                        floor_at_zero,
+                       static_cast<float>(shot.frame.intrinsics.fx_px),
                        config,
                        {0.015F, 4.0F, std::cos(0.35F)},
                        PixelBoxes(cloud),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/segments.hpp"
+#include "stages/planes/pixel_set.hpp"
 #include "stages/planes/planes.hpp"
 #include "support/world_scene.hpp"
 
@@ -18,6 +19,18 @@ inline PlanesConfig small_planes() {
   config.min_plane_pixels = 400;
   config.wall_min_pixels = 1000;
   return config;
+}
+
+/// The pixels of an image of so many that pass.
+template <typename Test>
+CountedPixels pixels_where(std::size_t pixels, Test const& test) {
+  CountedPixels result{PixelSet(pixels), 0};
+  for (std::size_t i = 0; i < pixels; ++i) {
+    if (test(i)) {
+      result.insert(i);
+    }
+  }
+  return result;
 }
 
 /// World position of a pixel.

@@ -328,21 +328,6 @@ TEST(SegmentKernels, AtLeast) {
   });
 }
 
-TEST(SegmentKernels, Different) {
-  on_every_instruction_set([](int width) {
-    std::mt19937 random(static_cast<unsigned>(width));
-    auto const labels = drawn<std::int32_t>(width, [&] { return random() % 2 << (random() % 31); });
-    std::int32_t const* const a = labels.row(2);
-    for (std::ptrdiff_t const step : {std::ptrdiff_t{1}, labels.stride()}) {
-      auto const differs = written_bits(width, [&](std::uint64_t* out) {
-        different_bits(a, a + step, static_cast<std::size_t>(width), out);
-      });
-      EXPECT_EQ(differs,
-                plain_row<std::uint8_t>(width, [&](int u) { return a[u] != a[u + step] ? 1 : 0; }));
-    }
-  });
-}
-
 TEST(SegmentRowBits, AreFoundOneAfterTheOther) {
   for (int const width : {1, 63, 64, 65, 200}) {
     RowBits bits(width);
