@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kUnitsPerQuantum = 16;
 constexpr int kThickest = 4;
-constexpr std::size_t kKeys = 64;
+constexpr std::size_t kKeys = 63;
 
 /// In the order in which fronts advance.
 constexpr std::array<Pixel, 4> kNeighbours = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};

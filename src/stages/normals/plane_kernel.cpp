@@ -37,36 +37,57 @@ HWY_INLINE V level_of(V radius) {
   return hn::IfThenElseZero(radius >= constant(reach), coarse);
 }
 
-/// The least-squares plane of some samples: w = a u + b v + c from the window's centre, in samples.
+/// The least-squares plane of some samples: w = a u + b v + c from the window's centre, in samples;
+/// `spans` where they carry one.
 struct Fit {
   /// How many.
   V n;
   V a, b, c;
-  /// Mean squared residual; huge where the samples do not span a plane.
-  V variance;
   M spans;
 };
 
+/// Second moments about the mean, times n^2. Those of u and v are integers below 2^24, so exact.
+struct CentralMoments {
+  V uu, uv, vv, uw, vw, ww;
+  V det;
+  V n2;
+
+  HWY_INLINE explicit CentralMoments(Moments const& m)
+      : uu(m.n * m.uu - m.u * m.u),
+        uv(m.n * m.uv - m.u * m.v),
+        vv(m.n * m.vv - m.v * m.v),
+        uw(m.n * m.uw - m.u * m.w),
+        vw(m.n * m.vw - m.v * m.w),
+        ww(m.n * m.ww - m.w * m.w),
+        det(uu * vv - uv * uv),
+        n2(m.n * m.n) {}
+
+  /// a and b, times det.
+  [[nodiscard]] HWY_INLINE V a_det() const { return uw * vv - vw * uv; }
+  [[nodiscard]] HWY_INLINE V b_det() const { return vw * uu - uw * uv; }
+  [[nodiscard]] HWY_INLINE M spans() const {
+    // det / trace is about the variance across the narrowest direction: one line of samples has 0,
+    // two lines have 1/4.
+    constexpr float kLeastSpread = 0.19F;
+    return det > constant(kLeastSpread) * n2 * (uu + vv);
+  }
+};
+
 HWY_NOINLINE Fit fit(Moments const& m) {
-  // Second moments about the mean, times n^2. Those of u and v are integers below 2^24, so exact.
-  V const uu = m.n * m.uu - m.u * m.u;
-  V const uv = m.n * m.uv - m.u * m.v;
-  V const vv = m.n * m.vv - m.v * m.v;
-  V const uw = m.n * m.uw - m.u * m.w;
-  V const vw = m.n * m.vw - m.v * m.w;
-  V const ww = m.n * m.ww - m.w * m.w;
-  V const det = uu * vv - uv * uv;
-  // det / trace is about the variance across the narrowest direction: one line of samples has 0,
-  // two lines have 1/4.
-  constexpr float kLeastSpread = 0.19F;
-  V const n2 = m.n * m.n;
-  M const spans = det > constant(kLeastSpread) * n2 * (uu + vv);
-  V const a = (uw * vv - vw * uv) / det;
-  V const b = (vw * uu - uw * uv) / det;
-  V const variance = hn::Max(ww - a * uw - b * vw, hn::Zero(D())) / n2;
-  return {
-      m.n,  a, b, (m.w - a * m.u - b * m.v) / m.n, hn::IfThenElse(spans, variance, constant(1e30F)),
-      spans};
+  CentralMoments const about(m);
+  V const a = about.a_det() / about.det;
+  V const b = about.b_det() / about.det;
+  return {m.n, a, b, (m.w - a * m.u - b * m.v) / m.n, about.spans()};
+}
+
+/// Mean squared residual of the plane; huge where the samples do not span one. With one division:
+/// these take longest, and most windows are asked five times.
+HWY_NOINLINE V variance_of(Moments const& m) {
+  CentralMoments const about(m);
+  V const explained_det = about.a_det() * about.uw + about.b_det() * about.vw;
+  V const variance =
+      hn::Max(about.ww * about.det - explained_det, hn::Zero(D())) / (about.det * about.n2);
+  return hn::IfThenElse(about.spans(), variance, constant(1e30F));
 }
 
 /// The moments that the normal is fitted to: the whole window where one plane explains it, else
@@ -89,10 +110,9 @@ HWY_INLINE Fit best_fit(float const* centre, std::ptrdiff_t stride, int step, Wi
   Moments sum = whole(parts);
   V const noise = constant(kNoiseShare) * window.tolerance;
   V const noise2 = noise * noise;
-  Fit const plane = fit(sum);
-  M const bent = hn::And(valid, plane.variance > noise2);
+  M const bent = hn::And(valid, variance_of(sum) > noise2);
   if (hn::AllFalse(D(), bent)) {
-    return plane;
+    return fit(sum);
   }
   std::array<Moments, 4> const quadrants = {
       quadrant(parts.top_left, parts.top, parts.left, parts.centre),
@@ -101,7 +121,7 @@ HWY_INLINE Fit best_fit(float const* centre, std::ptrdiff_t stride, int step, Wi
       quadrant(parts.bottom_right, parts.bottom, parts.right, parts.centre)};
   std::array<V, 4> variance;
   for (std::size_t q = 0; q < quadrants.size(); ++q) {
-    variance[q] = fit(quadrants[q]).variance;
+    variance[q] = variance_of(quadrants[q]);
   }
   V const least = hn::Min(hn::Min(variance[0], variance[1]), hn::Min(variance[2], variance[3]));
   V const limit = hn::Max(constant(kAlike) * least, constant(kFlat) * noise2);

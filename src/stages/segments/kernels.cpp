@@ -1,5 +1,9 @@
 #include "stages/segments/kernels.hpp"
 
+#include <bit>
+
+#include "stages/segments/limits.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/segments/kernels.cpp"  // NOLINT(*-macro-usage): Highway
 #include <hwy/foreach_target.h>
@@ -231,6 +235,28 @@ void worth_row_lanes(std::int16_t const* disparity, std::uint8_t const* thicknes
   }
 }
 
+void flood_row_lanes(std::uint8_t const* worth, std::int16_t const* disparity,
+                     std::ptrdiff_t stride, std::int16_t const* concavity, std::int16_t link,
+                     std::size_t count, std::uint8_t* out) {
+  D16 const d;
+  hn::Rebind<std::uint8_t, D16> const bytes;
+  // Half quanta.
+  constexpr int kShift = std::countr_zero(static_cast<unsigned>(kUnitsPerQuantum) / 2);
+  for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
+    V16 const cost =
+        hn::Min(hn::ShiftRight<kShift>(load(concavity + u)), constant(kFloodCost - 1)) +
+        constant(1);
+    M16 const open = hn::PromoteTo(d, hn::LoadU(bytes, worth + u)) > hn::Zero(d);
+    V16 const here = load(disparity + u);
+    auto const bit_where_linked = [&](std::int16_t const* next, std::int16_t bit) HWY_ATTR {
+      return hn::IfThenElseZero(hn::Abs(here - load(next)) < constant(link), constant(bit));
+    };
+    V16 const links = hn::Or(bit_where_linked(disparity + u + 1, kLinkedRight),
+                             bit_where_linked(disparity + u + stride, kLinkedDown));
+    hn::StoreU(hn::DemoteTo(bytes, hn::Or(hn::IfThenElseZero(open, cost), links)), bytes, out + u);
+  }
+}
+
 template <class D>
 HWY_INLINE std::uint64_t bits_of(D d, hn::Mask<D> mask) {
   alignas(8) std::uint8_t bytes[8] = {};
@@ -306,6 +332,7 @@ HWY_EXPORT(concavity_row_lanes);
 HWY_EXPORT(crease_row_lanes);
 HWY_EXPORT(thicken_row_lanes);
 HWY_EXPORT(worth_row_lanes);
+HWY_EXPORT(flood_row_lanes);
 HWY_EXPORT(at_least_bits_lanes);
 HWY_EXPORT(higher_bits_lanes);
 HWY_EXPORT(front_bits_lanes);
@@ -339,6 +366,13 @@ void thicken_row(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t
 void worth_row(std::int16_t const* disparity, std::uint8_t const* thickness, std::size_t count,
                std::uint8_t* out) {
   HWY_DYNAMIC_DISPATCH(worth_row_lanes)(disparity, thickness, count, out);
+}
+
+void flood_row(std::uint8_t const* worth, std::int16_t const* disparity, std::ptrdiff_t stride,
+               std::int16_t const* concavity, std::int16_t link, std::size_t count,
+               std::uint8_t* out) {
+  HWY_DYNAMIC_DISPATCH(flood_row_lanes)
+  (worth, disparity, stride, concavity, link, count, out);
 }
 
 void at_least_bits(std::uint8_t const* row, std::uint8_t least, std::size_t count,

@@ -56,6 +56,17 @@ void thicken_row(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t
 void worth_row(std::int16_t const* disparity, std::uint8_t const* thickness, std::size_t count,
                std::uint8_t* out);
 
+/// What a flood asks of a pixel, in a byte. The lowest six bits: 0 where there is no worth, else
+/// one more than its concavity in half quanta, rounded down, 62 at most. kLinkedRight and
+/// kLinkedDown where the disparity differs by less than `link` from the next pixel's, and from the
+/// next row's.
+inline constexpr std::uint8_t kFloodCost = 63;
+inline constexpr std::uint8_t kLinkedRight = 64;
+inline constexpr std::uint8_t kLinkedDown = 128;
+void flood_row(std::uint8_t const* worth, std::int16_t const* disparity, std::ptrdiff_t stride,
+               std::int16_t const* concavity, std::int16_t link, std::size_t count,
+               std::uint8_t* out);
+
 // Bits: one a pixel, 64 a word, as many words as `count` needs; those beyond it are 0.
 
 /// 1 where a value is at least that.

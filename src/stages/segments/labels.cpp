@@ -39,6 +39,7 @@ public:
         limits_(limits),
         labels_(map.width(), map.height(), PartLabels::kFewMarginRows),
         worth_(map.width(), map.height(), PartLabels::kFewMarginRows),
+        costs_(map.width(), map.height(), PartLabels::kFewMarginRows),
         bits_(map.width()),
         neighbours_({-1, 1, static_cast<Position>(-labels_.stride()),
                      static_cast<Position>(labels_.stride())}),
@@ -59,8 +60,9 @@ public:
       grow(least);
       begin_parts(least, limits_.part_px);
     }
-    flood(true);
-    flood(false);
+    find_costs();
+    flood<true>();
+    flood<false>();
     return std::move(labels_);
   }
 
@@ -165,37 +167,51 @@ private:
     }
   }
 
-  void flood(bool along_surfaces) {
-    std::uint8_t* const worth = worth_.row(0);
-    std::int32_t* const labels = labels_.row(0);
-    std::int16_t const* const disparity = map_.disparity.row(0);
-    std::int16_t const* const concavity = map_.concavity.row(0);
-    std::array<std::vector<Position>, kBuckets> buckets;
-    for_each_front(kValid, [&](Position at) { buckets[0].push_back(at); });
-    for (std::size_t key = 0; key < kBuckets; ++key) {
-      for (std::size_t i = 0; i < buckets.at(key).size(); ++i) {
-        Position const at = buckets.at(key)[i];
-        for (Position const step : neighbours_) {
-          Position const next = at + step;
-          if (worth[next] == 0 ||
-              (along_surfaces && !linked(disparity[at], disparity[next], limits_.link))) {
-            continue;
-          }
-          worth[next] = 0;
-          labels[next] = labels[at];
-          auto const own = static_cast<std::size_t>(concavity[next] * 2 / kUnitsPerQuantum);
-          buckets.at(std::max(key, std::min(own, kBuckets - 1))).push_back(next);
-        }
-      }
+  /// What a flood looks at, in one byte a pixel: that is what it waits for.
+  void find_costs() {
+    for (int v = 0; v < map_.height(); ++v) {
+      flood_row(worth_.row(v), map_.disparity.row(v), map_.disparity.stride(),
+                map_.concavity.row(v), limits_.link, static_cast<std::size_t>(map_.width()),
+                costs_.row(v));
+      costs_.end_row(v);
     }
   }
 
-  static constexpr std::size_t kBuckets = 64;
+  /// The rest, the least concave first; along surfaces, not over what is no link.
+  template <bool kAlongSurfaces>
+  void flood() {
+    std::uint8_t* const worth = worth_.row(0);
+    std::uint8_t* const costs = costs_.row(0);
+    std::int32_t* const labels = labels_.row(0);
+    std::array<std::vector<Position>, kFloodCost> buckets;
+    for_each_front(kValid, [&](Position at) { buckets[0].push_back(at); });
+    for (std::size_t key = 0; key < buckets.size(); ++key) {
+      auto const take = [&](Position at, Position next, int link) {
+        int const cost = costs[next] & kFloodCost;
+        if (cost == 0 || (kAlongSurfaces && link == 0)) {
+          return;
+        }
+        costs[next] &= static_cast<std::uint8_t>(~kFloodCost);
+        worth[next] = 0;
+        labels[next] = labels[at];
+        buckets[std::max(key, static_cast<std::size_t>(cost - 1))].push_back(next);
+      };
+      for (std::size_t i = 0; i < buckets[key].size(); ++i) {
+        Position const at = buckets[key][i];
+        auto const [left, right, up, down] = neighbours_;
+        take(at, at + left, costs[at + left] & kLinkedRight);
+        take(at, at + right, costs[at] & kLinkedRight);
+        take(at, at + up, costs[at + up] & kLinkedDown);
+        take(at, at + down, costs[at] & kLinkedDown);
+      }
+    }
+  }
 
   SurfaceMap const& map_;
   Limits const& limits_;
   PartLabels labels_;
   PaddedGrid<std::uint8_t> worth_;
+  PaddedGrid<std::uint8_t> costs_;
   RowBits bits_;
   /// In the order in which fronts advance.
   std::array<Position, 4> neighbours_;

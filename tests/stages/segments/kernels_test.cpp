@@ -283,6 +283,28 @@ TEST(SegmentKernels, Worth) {
   });
 }
 
+TEST(SegmentKernels, Flood) {
+  constexpr std::int16_t kLink = 40;
+  on_every_instruction_set([](int width) {
+    for (Heights const& heights : surfaces(width, 100)) {
+      std::mt19937 random(2);
+      Bytes const worth = drawn<std::uint8_t>(width, [&] { return random() % 3; });
+      // Up to beyond 31 quanta, 16 units each.
+      Heights const concavity = drawn<std::int16_t>(width, [&] { return random() % 800; });
+      std::int16_t const* const at = heights.row(2);
+      Row<std::uint8_t> out(width);
+      flood_row(worth.row(2), at, heights.stride(), concavity.row(2), kLink,
+                static_cast<std::size_t>(width), out.data());
+      EXPECT_EQ(out.values(), plain_row<std::uint8_t>(width, [&](int u) {
+                  int const cost = std::min(concavity.row(2)[u] / 8, 62) + 1;
+                  return (worth.row(2)[u] > 0 ? cost : 0) |
+                         (std::abs(at[u] - at[u + 1]) < kLink ? kLinkedRight : 0) |
+                         (std::abs(at[u] - heights.row(3)[u]) < kLink ? kLinkedDown : 0);
+                }));
+    }
+  });
+}
+
 /// What a kernel writes as bits, one value a pixel; bits beyond the row are 0.
 template <typename Write>
 std::vector<std::uint8_t> written_bits(int width, Write const& write) {
