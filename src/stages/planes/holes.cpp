@@ -28,6 +28,12 @@ CountedPixels whole_segments(CountedPixels pixels, CountedPixels const& unassign
   });
 }
 
+void set_label(CountedPixels const& pixels, LabelCode label, LabelMap& labels) {
+  pixels.pixels.for_each_run([&](std::size_t begin, std::size_t end) {
+    std::fill(labels.data() + begin, labels.data() + end, label);
+  });
+}
+
 /// What floor and walls have of the segments.
 class SegmentsHeld {
 public:
@@ -80,12 +86,12 @@ void complete_segments(PlaneView const& view, std::vector<FoundSurface> const& f
     if (found[k].label == kFloor) {
       near_to[k] = low_pixels(view, std::move(near_to[k]));
     }
-    near_to[k].pixels.for_each([&](std::size_t i) {
-      if (!taken.pixels.contains(i)) {
-        taken.insert(i);
-        segmentation.labels[i] = found[k].label;
-        return;
-      }
+    CountedPixels first = near_to[k];
+    CountedPixels contested = first.common(taken.pixels);
+    first.remove(contested);
+    set_label(first, found[k].label, segmentation.labels);
+    taken.insert(first);
+    contested.pixels.for_each([&](std::size_t i) {
       Eigen::Vector3d const p_camera = view.cloud.at(i).cast<double>();
       auto const distance_m = [&](std::size_t surface) {
         return std::abs(found[surface].camera.signed_distance_m(p_camera));
@@ -110,12 +116,13 @@ void complete_planes(PlaneView const& view, std::vector<FoundSurface> const& fou
   PlaneTolerance const close{kAllBut * view.tolerance.fixed_m,
                              kAllBut * view.tolerance.noise_sigmas, 0.0F};
   for (FoundSurface const& surface : found) {
-    CountedPixels joining = inliers_among(view, surface.camera, unassigned.pixels, close);
+    PixelSet const asked = unassigned.common(surface.open).pixels;
+    CountedPixels joining = inliers_among(view, surface.camera, asked, close);
     joining = whole_segments(std::move(joining), unassigned, view.pieces);
     if (surface.label == kFloor) {
       joining = low_pixels(view, std::move(joining));
     }
-    joining.pixels.for_each([&](std::size_t i) { segmentation.labels[i] = surface.label; });
+    set_label(joining, surface.label, segmentation.labels);
     unassigned.remove(joining);
   }
 }

@@ -14,6 +14,8 @@ struct FoundSurface {
   Plane camera;
   /// That carry its label by now.
   CountedPixels pixels;
+  /// All others that may lie as near to the plane as its own, whatever their normals.
+  PixelSet open;
 };
 
 /// Gives pixels that nothing has explained to floor and walls; the planes stay as fitted. Noise

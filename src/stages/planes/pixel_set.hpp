@@ -30,6 +30,11 @@ public:
   void insert(std::size_t pixel) {
     words_[pixel / kWordBits] |= std::uint64_t{1} << (pixel % kWordBits);
   }
+  void insert(PixelSet const& others) {
+    for (std::size_t w = 0; w < words_.size(); ++w) {
+      words_[w] |= others.words_[w];
+    }
+  }
   void remove(PixelSet const& others) {
     for (std::size_t w = 0; w < words_.size(); ++w) {
       words_[w] &= ~others.words_[w];
@@ -99,10 +104,16 @@ struct CountedPixels {
   }
   /// Others, none of which are among them yet.
   void insert(CountedPixels const& others) {
-    for (std::size_t w = 0; w < pixels.words().size(); ++w) {
-      pixels.words()[w] |= others.pixels.words()[w];
-    }
+    pixels.insert(others.pixels);
     count += others.count;
+  }
+  [[nodiscard]] CountedPixels common(PixelSet const& others) const {
+    CountedPixels result{pixels, 0};
+    for (std::size_t w = 0; w < pixels.words().size(); ++w) {
+      result.pixels.words()[w] &= others.words()[w];
+      result.count += count_bits(result.pixels.words()[w]);
+    }
+    return result;
   }
   /// Takes out some of them: `others` must be a part of these.
   void remove(CountedPixels const& others) {

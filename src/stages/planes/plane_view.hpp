@@ -63,6 +63,8 @@ struct PixelPlane {
   CountedPixels inliers;
   /// Near enough to be its, but for their normals.
   PixelSet turned{0};
+  /// May be near to it besides: what another plane had, and what it has given back.
+  PixelSet open{0};
   /// More pixels of its segments, not so exactly in the plane.
   CountedPixels joined{PixelSet(0), 0};
 };

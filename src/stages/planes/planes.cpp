@@ -83,7 +83,8 @@ FoundSurface found_surface(LabelCode label, PixelPlane plane) {
   if (plane.joined.count > 0) {
     plane.inliers.insert(plane.joined);
   }
-  return {label, plane.camera, std::move(plane.inliers)};
+  plane.open.insert(plane.turned);
+  return {label, plane.camera, std::move(plane.inliers), std::move(plane.open)};
 }
 
 void add_wall(PlaneView const& view, PixelPlane const& plane, Segmentation& segmentation) {

@@ -25,6 +25,7 @@ RemainingPoints::RemainingPoints(PlaneView const& view, Segments const& segments
                                  CountedPixels pixels)
     : view_(view),
       segments_(segments),
+      all_(pixels.pixels),
       pixels_(std::move(pixels)),
       eligible_(view.pieces.counts(pixels_.pixels)) {}
 
@@ -139,6 +140,9 @@ std::vector<double> RemainingPoints::mean_distances(Plane const& plane,
 }
 
 void RemainingPoints::settle(PixelPlane& plane) {
+  plane.open = all_;
+  plane.open.remove(pixels_.pixels);
+  plane.open.remove(plane.inliers.pixels);
   if (eligible_.empty()) {
     return;
   }
@@ -152,6 +156,7 @@ void RemainingPoints::settle(PixelPlane& plane) {
                                near_tolerance(view_.tolerance, kLooseCosine));
   pixels_.remove(plane.joined);
   plane.inliers.remove(back);
+  plane.open.insert(back.pixels);
   pixels_.insert(back);
   for (CountedPixels const& taken : {std::cref(plane.inliers), std::cref(plane.joined)}) {
     std::ranges::transform(eligible_, view_.pieces.counts(taken.pixels), eligible_.begin(),

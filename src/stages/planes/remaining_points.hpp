@@ -64,6 +64,8 @@ private:
 
   PlaneView const& view_;
   Segments const& segments_;
+  /// What there was at first.
+  PixelSet all_;
   CountedPixels pixels_;
   /// Of each segment, how many pixels neither floor nor wall nor object has taken. Empty without
   /// segments.
