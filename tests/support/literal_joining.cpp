@@ -173,6 +173,11 @@ private:
   }
 
   void look_closely(Border& border, Pixel p, Pixel q) {
+    if (std::abs(surfaces_.disparity[p] - surfaces_.disparity[q]) >= 8 * limits_.link) {
+      ++border.samples;
+      ++border.unlike;
+      return;
+    }
     auto const plane_p = fitted(disc_around(p, labels_[p]));
     auto const plane_q = fitted(disc_around(p, labels_[q]));
     if (plane_p && plane_q) {

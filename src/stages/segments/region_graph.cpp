@@ -14,6 +14,8 @@ namespace {
 
 /// Every so many pairs of a border are looked at closely.
 constexpr std::uint32_t kSampleEvery = 3;
+/// What is so many times as far apart as neighbours on a surface is on two.
+constexpr int kFarApart = 8;
 constexpr std::int64_t kLeastPoints = 20;
 
 /// Least squares; a little is added to the points' spread, so that a thin strip has no steep plane.
@@ -144,11 +146,17 @@ private:
     Border& border = border_of(a, b);
     std::int16_t const* const disparity = map_.disparity.row(0);
     std::uint8_t const* const wall = map_.wall.row(0);
-    bool const parted = !linked(disparity[at], disparity[at + step], limits_.link) ||
-                        wall[at] != 0 || wall[at + step] != 0;
+    int const jump = std::abs(disparity[at] - disparity[at + step]);
+    bool const parted = jump >= limits_.link || wall[at] != 0 || wall[at + step] != 0;
     border.parted += parted ? 1 : 0;
     if (border.pairs++ % kSampleEvery == 0) {
-      sample(border, u, v, at, step);
+      if (jump >= kFarApart * limits_.link) {
+        // No surface is that steep: many a disc of a full view is spared.
+        ++border.samples;
+        ++border.unlike;
+      } else {
+        sample(border, u, v, at, step);
+      }
     }
   }
 
