@@ -37,6 +37,10 @@ void ClusterOwners::give(LabelCode label, std::size_t item) {
   owners_[place_of(label)] = static_cast<std::int32_t>(item);
 }
 
+void ClusterOwners::release(LabelCode label) {
+  owners_[place_of(label)] = -1;
+}
+
 bool ClusterOwners::is_base_of(std::size_t item, LabelCode label) const {
   std::int32_t const base = clusters_[place_of(label)].lies_on;
   return base >= 0 && owners_[static_cast<std::size_t>(base)] == static_cast<std::int32_t>(item) &&

@@ -27,6 +27,8 @@ public:
   /// By its place in the belief; none for a cluster that is no thing's yet.
   [[nodiscard]] std::optional<std::size_t> owner(LabelCode label) const;
   void give(LabelCode label, std::size_t item);
+  /// It is no thing's any more.
+  void release(LabelCode label);
   /// Whether a cluster lies on this thing and is not a part of it.
   [[nodiscard]] bool is_base_of(std::size_t item, LabelCode label) const;
 

@@ -25,6 +25,11 @@ KnownPlaces::KnownPlaces(BeliefState const& belief, KnownSurfaces const& surface
     : camera_world_(belief.T_world_camera.translation()) {
   if (belief.last_sight != nullptr) {
     before_.emplace(belief.last_sight->sight, belief.last_sight->T_world_camera);
+    for (LabelCode const label : belief.last_sight->sight.labels) {
+      if (is_object(label)) {
+        shown_before_.insert(label);
+      }
+    }
   }
   if (belief.floor && belief.floor->log_odds > 0.0) {
     Eigen::Vector3d middle = centroid_of(*belief.floor->points);

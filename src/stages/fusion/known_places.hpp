@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
 #include "core/belief.hpp"
+#include "core/label.hpp"
 #include "geometry/known_surface.hpp"
 #include "stages/fusion/sight_view.hpp"
 
@@ -48,6 +50,8 @@ public:
   /// Of the points that the last frame told of, the part that it saw through: what stands there now
   /// came there since. 0 where it told of fewer than 8.
   [[nodiscard]] double share_free_before(std::span<Eigen::Vector3f const> points_world) const;
+  /// Whether the last frame showed the known object that has this label in label images.
+  [[nodiscard]] bool has_shown(LabelCode object) const { return shown_before_.contains(object); }
 
 private:
   struct Strip {
@@ -72,6 +76,7 @@ private:
 
   Eigen::Vector3d camera_world_;
   std::optional<SightView> before_;
+  std::set<LabelCode> shown_before_;
   std::optional<Plane> floor_world_;
   std::vector<Strip> walls_;
   std::vector<Place> objects_;

@@ -13,6 +13,9 @@ struct Finding {
   Verdict verdict = Verdict::kSeen;
   /// Of what is usually seen of it, the part that is seen now, or seen through.
   double visible = 0.0;
+  /// Of what has gone as a thing of its own alone: its surface is where it was, and the frame takes
+  /// it for something known.
+  bool stands = false;
 };
 
 /// What a look says of a thing of which so many points ever agreed with one frame; `matched`: one
@@ -33,15 +36,18 @@ struct Finding {
 
 /// Of a thing, a wall or the floor: Bayes' rule in log-odds, bounded. The more of a thing is seen,
 /// or seen through, the more it counts; what a look repeats of the one before counts by `news`
-/// (novelty), a change in full. The thing's account has that part, and by how much it moved.
+/// (novelty), a change in full. Another name for what stands as before is no change in the world.
+/// The thing's account has that part, and by how much it moved.
 template <typename Thing>
 void believe(Thing& thing, Finding const& finding, Look const& now, double news,
              ExistenceConfig const& config) {
-  bool const changed = (finding.verdict == Verdict::kSeen) != (thing.verdict == Verdict::kSeen);
+  Verdict const shown = finding.stands ? Verdict::kSeen : finding.verdict;
+  bool const changed =
+      !finding.stands && (shown == Verdict::kSeen) != (thing.verdict == Verdict::kSeen);
   thing.why.news = changed ? 1.0 : news;
   double const step = log_odds_step(finding, thing.why.news);
   add_step(thing.log_odds, step, thing.why, config);
-  thing.verdict = finding.verdict;
+  thing.verdict = shown;
   thing.last_look = now;
 }
 

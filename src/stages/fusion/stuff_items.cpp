@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,8 @@
 namespace credo {
 namespace {
 
+// How much of a look is news that takes for something known what one look showed by itself.
+constexpr double kOneToOne = 0.7;
 // Merging.
 constexpr double kShareInAnother = 0.6;
 constexpr double kLeastShown = 0.32;
@@ -50,6 +53,7 @@ public:
   }
 
   FusedStuff run() && {
+    release_walkers();
     for (std::size_t i = 0; i < known_.stuff.size(); ++i) {
       update(i);
     }
@@ -73,6 +77,34 @@ private:
     return clusters_[label - std::size_t{kFirstStuff}];
   }
 
+  /// A cluster that is one with what stands behind a thing on its way, for the greater part of it,
+  /// is not what stands there.
+  void release_walkers() {
+    for (std::size_t i = 0; i < look_count(); ++i) {
+      bool const shows = std::ranges::any_of(look(i).shares, [&](ClusterShare const& share) {
+        return is_stuff(share.label) && owners_.owner(share.label) == i;
+      });
+      if (shows || !is_on_its_way(known_.stuff[i])) {
+        continue;
+      }
+      for (ClusterShare const& share : look(i).shares) {
+        std::optional<std::size_t> const owner =
+            is_stuff(share.label) ? owners_.owner(share.label) : std::nullopt;
+        if (!owner || is_on_its_way(known_.stuff[*owner])) {
+          continue;
+        }
+        std::size_t const c = share.label - std::size_t{kFirstStuff};
+        SeenCluster rest = without_thing(clusters_[c], *owner, looks_.owners());
+        if (2 * rest.blocks.size() > clusters_[c].blocks.size() &&
+            may_have_walked_to(known_.stuff[i], look(i), c, rest)) {
+          clusters_[c] = std::move(rest);
+          owners_.release(share.label);
+          released_.insert(share.label);
+        }
+      }
+    }
+  }
+
   void update(std::size_t i) {
     StuffBelief& item = known_.stuff[i];
     StuffLook const& seen = look(i);
@@ -94,13 +126,16 @@ private:
     if (finding && finding->verdict == Verdict::kSeen && !matched && shows_known(i)) {
       // What is there is floor, wall or known object, and no thing of its own.
       finding->verdict = Verdict::kGone;
+      finding->stands = !shows_found_object(i);
       item.evidence = Evidence::kNotSeen;
     }
     item.why = account_of(seen.counts, item.most_agreeing);
     Eigen::Vector3d const middle = item.latest().centroid_world.cast<double>();
     news_[i] = novelty(view_change(item.last_look, now_), middle, config_.existence);
     if (finding) {
-      believe(item, *finding, now_, news_[i], config_.existence);
+      bool const one_to_one = finding->stands && item.history_count == 1 && item.one_with.empty();
+      believe(item, *finding, now_, one_to_one ? std::max(news_[i], kOneToOne) : news_[i],
+              config_.existence);
     } else if (is_on_its_way(item)) {
       lose_sight_of(item, elapsed_s_, config_.existence);
     }
@@ -187,7 +222,7 @@ private:
         continue;
       }
       if (!item.label && shows_known(j)) {
-        if (shows_enough(j) && shows_as_known(item, news_[j])) {
+        if (shows_enough(j) && shows_as_known(item, news_[j]) && item.log_odds < 0.0) {
           forget(item);
         }
       } else if (std::optional<std::size_t> const host = host_of(j)) {
@@ -228,6 +263,21 @@ private:
            planes_.are_what_shows(look(j));
   }
 
+  /// Whether what shows is, for the most part, a known object that the frame before did not show.
+  /// That is found since, and no other name for what was in sight already.
+  [[nodiscard]] bool shows_found_object(std::size_t j) const {
+    int found = 0;
+    int agreeing = 0;
+    for (PointLook const& point : look(j).points) {
+      if (point.state == PointState::kAgrees) {
+        LabelCode const label = segmentation_.sight.labels[static_cast<std::size_t>(point.block)];
+        ++agreeing;
+        found += is_object(label) && !places_.has_shown(label) ? 1 : 0;
+      }
+    }
+    return 2 * found > agreeing;
+  }
+
   [[nodiscard]] std::size_t look_count() const { return looks_.looks().size(); }
 
   /// The thing whose clusters show most of this one.
@@ -235,7 +285,8 @@ private:
     std::vector<std::pair<std::size_t, int>> blocks_in;
     for (ClusterShare const& share : look(j).shares) {
       std::optional<std::size_t> const host =
-          is_stuff(share.label) ? owners_.owner(share.label) : std::nullopt;
+          is_stuff(share.label) && !released_.contains(share.label) ? owners_.owner(share.label)
+                                                                    : std::nullopt;
       if (!host) {
         continue;
       }
@@ -325,6 +376,8 @@ private:
   /// By label, from kFirstStuff on.
   std::vector<SeenCluster> clusters_;
   ClusterOwners owners_;
+  /// Those that are what walks and what stands behind it in one.
+  std::set<LabelCode> released_;
   /// How much of the frame is news about each thing.
   std::vector<double> news_;
   /// Of each thing, before the frame.

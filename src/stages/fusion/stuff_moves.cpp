@@ -213,6 +213,30 @@ std::vector<Move> moves(std::vector<StuffBelief> const& stuff, std::vector<Stuff
   return found;
 }
 
+SeenCluster without_thing(SeenCluster const& cluster, std::size_t item,
+                          Grid<std::int32_t> const& owners) {
+  SeenCluster rest = cluster;
+  rest.blocks.clear();
+  rest.points_world.clear();
+  for (std::size_t k = 0; k < cluster.blocks.size(); ++k) {
+    if (owners[cluster.blocks[k]] != static_cast<std::int32_t>(item)) {
+      rest.blocks.push_back(cluster.blocks[k]);
+      rest.points_world.push_back(cluster.points_world[k]);
+    }
+  }
+  auto const all = static_cast<double>(std::max<std::size_t>(cluster.blocks.size(), 1));
+  double const part = static_cast<double>(rest.blocks.size()) / all;
+  rest.area_m2 *= part;
+  rest.pixel_count = static_cast<std::size_t>(part * static_cast<double>(cluster.pixel_count));
+  return rest;
+}
+
+bool may_have_walked_to(StuffBelief const& item, StuffLook const& look, std::size_t cluster,
+                        SeenCluster const& rest) {
+  return is_on_its_way(item) && makes_way_for(item, look, {cluster, false}) &&
+         way_to(item, rest).has_value();
+}
+
 bool has_moved(PointCounts const& look) {
   int const through = look[PointState::kSeenThrough];
   return through > kMostThroughSeen * (through + look[PointState::kAgrees]);

@@ -52,6 +52,17 @@ struct Move {
                                       std::span<FreeCluster const> free,
                                       Eigen::Vector3d const& camera_world);
 
+/// What is left of a cluster without the blocks that a thing explains, which stands there: `owners`
+/// has of each block of the sight the place of that in the belief.
+[[nodiscard]] SeenCluster without_thing(SeenCluster const& cluster, std::size_t item,
+                                        Grid<std::int32_t> const& owners);
+
+/// Whether a thing that was on its way may have walked to where the cluster is, at this place among
+/// the frame's: what it should show is hidden by that, or seen through. `rest` is what of the
+/// cluster may be the thing.
+[[nodiscard]] bool may_have_walked_to(StuffBelief const& item, StuffLook const& look,
+                                      std::size_t cluster, SeenCluster const& rest);
+
 /// Whether a look that shows a thing says by its points that it stands elsewhere than at the one
 /// before.
 [[nodiscard]] bool has_moved(PointCounts const& look);

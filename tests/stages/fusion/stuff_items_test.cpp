@@ -244,23 +244,6 @@ TEST(StuffItems, WhatIsAnothersIsNotLearnt) {
   EXPECT_LT(room.stuff()[0].latest().bounds_world.max().x(), 0.13F);
 }
 
-class KnownByNow : public testing::TestWithParam<LabelCode> {};
-
-TEST_P(KnownByNow, WhatShowsAsSuchForLongWasThat) {
-  Room room;
-  room.show({.boards = {{kFirst}}}, 60);
-  double const before = room.stuff().at(0).log_odds;
-  room.show({.boards = {{GetParam()}}}, 3);
-  ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
-  EXPECT_EQ(room.stuff()[0].evidence, Evidence::kNotSeen);
-  EXPECT_LT(room.stuff()[0].log_odds, before - 2.0) << "what is there is no thing of its own";
-  EXPECT_GT(room.stuff()[0].log_odds, 0.0) << "but a frame may err";
-  room.show({.boards = {{GetParam()}}}, 50);
-  EXPECT_TRUE(room.stuff().empty());
-}
-
-INSTANTIATE_TEST_SUITE_P(Kinds, KnownByNow, testing::Values(kFloor, kFirstWall, kFirstObject + 2));
-
 // A door, say, of which a strip at the image's edge is taken for its wall.
 TEST(StuffItems, WhatIsHardlyInViewIsNotTakenForAWall) {
   Room room;

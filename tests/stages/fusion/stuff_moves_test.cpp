@@ -134,6 +134,47 @@ TEST(StuffMoves, WhatIsTooFarOffIsAnother) {
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
 }
 
+// For a frame, the segmentation joins it to a door behind it.
+TEST(StuffMoves, WhatIsOneWithWhatStandsBehindItKeepsItsName) {
+  Board const door{kSecond, 0.25, -0.3, 0.4, 0.6, 2.8};
+  Room room(test::kWithSight);
+  room.show({.boards = {door}}, 10);
+  for (int k = 0; k < 8; ++k) {
+    room.show({.boards = {door, person(-0.15, 2.6 - 0.1 * k)}});
+  }
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  ASSERT_TRUE(is_on_its_way(room.stuff()[1]));
+  double const believed = room.stuff()[0].log_odds;
+  Board joined = door;
+  joined.label = kFirst;
+  for (int k = 8; k < 14; ++k) {
+    room.show({.boards = {joined, person(-0.15, 2.6 - 0.1 * k)}});
+    ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+    EXPECT_EQ(room.stuff()[1].label, kFirst);
+    EXPECT_LT(room.stuff()[1].latest().bounds_world.sizes().z(), 0.1F) << "none of it is the door";
+    EXPECT_EQ(room.stuff()[0].evidence, Evidence::kSeen);
+    EXPECT_GE(room.stuff()[0].log_odds, believed);
+  }
+  room.show({.boards = {door, person(-0.15, 1.1)}});
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  EXPECT_EQ(room.stuff()[0].label, kSecond);
+  EXPECT_EQ(room.stuff()[1].label, kFirst);
+}
+
+// A person who comes up beside a cupboard is not that.
+TEST(StuffMoves, WhatIsForTheLesserPartOfAClusterIsNotTheCluster) {
+  Board const cupboard{kFirst, 0.2, -0.8, 1.0, 1.6, 2.0};
+  Room room(test::kWithSight);
+  room.show({.boards = {cupboard}}, 10);
+  for (int k = 0; k < 8; ++k) {
+    room.show({.boards = {cupboard, person(-0.15, 2.6 - 0.1 * k, kSecond)}});
+  }
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {cupboard, person(-0.15, 1.8)}});
+  EXPECT_EQ(room.stuff().at(0).label, kFirst);
+  EXPECT_FALSE(room.stuff().at(1).label);
+}
+
 TEST(StuffMoves, WhatWalksAcrossKeepsItsNameAndItsSize) {
   Room room(test::kWithSight);
   room.show({});
