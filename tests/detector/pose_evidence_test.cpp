@@ -119,6 +119,50 @@ TEST(PoseEvidence, TellsWhatAnErrorOfAllDepthsMakesOfThePose) {
   }
 }
 
+/// The scene with what lies a radius from `centre` along `direction` farther away by `by_m` along
+/// its ray, and the other end nearer.
+SearchScene with_tilted_depths(SearchScene scene, Vector3f const& centre, Vector3f const& direction,
+                               float by_m, float radius_m) {
+  for (int v = 0; v < scene.pixels.height(); ++v) {
+    for (int u = 0; u < scene.pixels.width(); ++u) {
+      float& depth_m = scene.pixels[{u, v}].depth_m;
+      float const share = (scene.point_at({u, v}) - centre).dot(direction) / radius_m;
+      depth_m += depth_m > 0.0F ? by_m * share : 0.0F;
+    }
+  }
+  return scene;
+}
+
+TEST(PoseEvidence, TellsWhatDepthsTiltedInCommonMakeOfThePose) {
+  constexpr float kTilt_m = 0.001F;
+  SearchModel const& model = prepared_bracket();
+  for (double const angle : {0.3, 1.1, 2.5}) {
+    BracketView const view = bracket_alone(some_rotation(angle));
+    RefinementConfig fully = kFinestRefinement;
+    fully.iterations = 30;
+    CameraPose const at_rest = refined(model, view.scene, view.truth, fully);
+    PoseEvidence const evidence = evidence_of(model, view.scene, at_rest);
+    Vector3f const centre = at_rest * model.centre_model;
+    Vector3f const sideways = centre.cross(Vector3f::UnitY()).normalized();
+    Vector3f const upright = centre.normalized().cross(sideways);
+    for (int column : {1, 2}) {
+      Vector3f const& direction = column == 1 ? sideways : upright;
+      SearchScene const tilted =
+          with_tilted_depths(view.scene, centre, direction, kTilt_m, model.radius_m);
+      Vector6d error = boxminus(se3(refined(model, tilted, at_rest, fully)), se3(at_rest));
+      Vector6d told = evidence.hold.inverse() * evidence.common_depth.col(column) *
+                      static_cast<double>(kTilt_m);
+      for (Vector6d* motion : {&error, &told}) {
+        motion->tail<3>() *= 0.07;  // a radian moves the points by about so much
+      }
+      // Points fall elsewhere when it turns; but it turns that way, and about so far.
+      EXPECT_LT((error - told).norm(), 0.7 * told.norm()) << angle << ", column " << column << "\n"
+                                                          << error.transpose() << "\n"
+                                                          << told.transpose();
+    }
+  }
+}
+
 TEST(PoseEvidence, AnEdgeFartherOutOnOneSidePullsThere) {
   // Where something is behind it, its silhouette is where the surface ends.
   BracketView const view = bracket_on_desk(0.5);

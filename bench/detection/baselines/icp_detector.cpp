@@ -58,7 +58,7 @@ IcpDetector::IcpDetector(std::vector<ObjectModel> const& models, IcpSettings con
   }
 }
 
-std::vector<Candidate> IcpDetector::fits_of(Model const& model, SceneSegment const& segment,
+std::vector<Candidate> IcpDetector::fits_of(Model const& model, SegmentCloud const& segment,
                                             SceneCloud const& scene) const {
   auto const coarse = first_points(*segment.points, settings_.coarse_points);
   std::vector<Tried> tried;
@@ -88,14 +88,14 @@ std::vector<Detection> IcpDetector::detect(Frame const& frame,
     asked.insert(request.type);
   }
   SceneCloud const scene = scene_cloud(frame);
-  std::vector<SceneSegment> const segments = segments_of(scene);
+  std::vector<SegmentCloud> const segments = segments_of(scene);
   std::vector<std::vector<Candidate>> found(models_.size());
   tbb::parallel_for(std::size_t{0}, models_.size(), [&](std::size_t m) {
     Model const& model = models_[m];
     if (!asked.contains(model.cloud.name)) {
       return;
     }
-    for (SceneSegment const& segment : segments) {
+    for (SegmentCloud const& segment : segments) {
       if (segment.could_be(model.cloud.diameter_m)) {
         std::vector<Candidate> const fits = fits_of(model, segment, scene);
         found[m].insert(found[m].end(), fits.begin(), fits.end());

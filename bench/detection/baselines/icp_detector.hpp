@@ -10,7 +10,7 @@
 namespace credo {
 
 struct SceneCloud;
-struct SceneSegment;
+struct SegmentCloud;
 struct Candidate;
 
 /// Tuned on the tuning sets.
@@ -44,7 +44,7 @@ private:
     NormalCloud::Ptr coarse;
     NormalCloud::Ptr fine;
   };
-  [[nodiscard]] std::vector<Candidate> fits_of(Model const& model, SceneSegment const& segment,
+  [[nodiscard]] std::vector<Candidate> fits_of(Model const& model, SegmentCloud const& segment,
                                                SceneCloud const& scene) const;
 
   std::vector<Model> models_;

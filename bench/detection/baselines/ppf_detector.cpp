@@ -98,14 +98,14 @@ std::vector<Detection> PpfDetector::detect(Frame const& frame,
   }
   SceneCloud const scene = scene_cloud(frame);
   NormalCloud::Ptr const surface = thinned(*scene.points, kSurface_m);
-  std::vector<SceneSegment> const segments = segments_of(scene);
+  std::vector<SegmentCloud> const segments = segments_of(scene);
   std::vector<std::vector<Candidate>> found(models_.size());
   tbb::parallel_for(std::size_t{0}, models_.size(), [&](std::size_t m) {
     Model const& model = models_[m];
     if (!asked.contains(model.dense.name)) {
       return;
     }
-    for (SceneSegment const& segment : segments) {
+    for (SegmentCloud const& segment : segments) {
       if (!segment.could_be(model.dense.diameter_m)) {
         continue;
       }

@@ -24,22 +24,22 @@ double extent_m_of(NormalCloud const& points) {
 
 }  // namespace
 
-bool SceneSegment::could_be(double diameter_m) const {
+bool SegmentCloud::could_be(double diameter_m) const {
   constexpr double kLargestShare = 1.15;
   constexpr double kSmallestShare = 0.3;
   return extent_m <= kLargestShare * diameter_m && extent_m >= kSmallestShare * diameter_m;
 }
 
-std::vector<SceneSegment> segments_of(SceneCloud const& scene) {
-  std::vector<SceneSegment> all(static_cast<std::size_t>(scene.segment_count));
-  for (SceneSegment& segment : all) {
+std::vector<SegmentCloud> segments_of(SceneCloud const& scene) {
+  std::vector<SegmentCloud> all(static_cast<std::size_t>(scene.segment_count));
+  for (SegmentCloud& segment : all) {
     segment.points = std::make_shared<NormalCloud>();
   }
   for (std::size_t i = 0; i < scene.points->size(); ++i) {
     all[static_cast<std::size_t>(scene.segment[i])].points->push_back((*scene.points)[i]);
   }
-  std::erase_if(all, [](SceneSegment const& one) { return one.points->size() < kLeastPoints; });
-  for (SceneSegment& segment : all) {
+  std::erase_if(all, [](SegmentCloud const& one) { return one.points->size() < kLeastPoints; });
+  for (SegmentCloud& segment : all) {
     std::mt19937_64 random(1);
     std::ranges::shuffle(segment.points->points, random);
     Eigen::Vector4f middle;

@@ -7,8 +7,8 @@
 
 namespace credo {
 
-/// One of the segments of a scene.
-struct SceneSegment {
+/// The points of one of the segments of a scene.
+struct SegmentCloud {
   /// In random order.
   NormalCloud::Ptr points;
   Eigen::Vector3f middle;
@@ -21,7 +21,7 @@ struct SceneSegment {
 };
 
 /// The segments that have at least 25 points.
-[[nodiscard]] std::vector<SceneSegment> segments_of(SceneCloud const& scene);
+[[nodiscard]] std::vector<SegmentCloud> segments_of(SceneCloud const& scene);
 
 /// Share of a segment's points that are on the model's surface: each counts one less its squared
 /// distance, and nothing from a centimetre on.
