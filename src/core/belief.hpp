@@ -132,6 +132,15 @@ struct OneWith {
   double evidence = 0.0;
 };
 
+/// A thing that became one with another, as it was then: should it come apart again, it has a name.
+struct JoinedThing {
+  std::uint32_t id = 0;
+  std::size_t history_count = 0;
+  /// Of its surface, about one to a cell of a grid; never empty. Shared between successive beliefs.
+  std::shared_ptr<PointList const> points_world;
+  float spacing_m = 0.0F;
+};
+
 /// Something seen but not known: its clusters over time and the probability that it is there (4.3).
 struct StuffBelief {
   std::uint32_t id = 0;
@@ -156,6 +165,8 @@ struct StuffBelief {
   double moved_share = 0.0;
   /// Things that became one with it in this frame: they have no belief of their own any more.
   std::vector<std::uint32_t> joined_ids;
+  /// Things that became one with it, in this frame or before, as long as they stand there.
+  std::vector<JoinedThing> names_kept;
 
   [[nodiscard]] StuffCluster const& latest() const { return *recent_clusters.back(); }
 };
@@ -178,7 +189,8 @@ struct BeliefState {
   std::vector<WallBelief> walls;
   std::vector<ObjectBelief> objects;
   std::vector<StuffBelief> stuff;
-  // Ids are never used twice in a run.
+  // Ids are never given to two things in a run; what became one with another and comes apart again
+  // gets its own back.
   std::uint32_t next_wall_id = 1;
   std::uint32_t next_stuff_id = 1;
 };

@@ -12,6 +12,7 @@
 
 #include "stages/fusion/cluster_owners.hpp"
 #include "stages/fusion/existence.hpp"
+#include "stages/fusion/joined_names.hpp"
 #include "stages/fusion/shown_planes.hpp"
 #include "stages/fusion/stuff_findings.hpp"
 #include "stages/fusion/stuff_learning.hpp"
@@ -42,6 +43,7 @@ public:
         elapsed_s_(elapsed_s),
         config_(config),
         now_{segmentation.stamp_ns, segmentation.T_world_camera.translation()},
+        view_(segmentation.sight, segmentation.T_world_camera),
         looks_(segmentation.sight, segmentation.T_world_camera, known_.stuff),
         clusters_(clusters_of(segmentation)),
         owners_(looks_.looks(), clusters_),
@@ -49,6 +51,7 @@ public:
     for (StuffBelief& item : known_.stuff) {
       item.joined_ids.clear();
       log_odds_before_.push_back(item.log_odds);
+      models_before_.push_back(item.model);
     }
   }
 
@@ -60,6 +63,7 @@ public:
     learn();
     move();
     merge();
+    forget_what_left(known_.stuff, view_);
     for (Part const& part : parts_) {
       add(part.label - std::size_t{kFirstStuff}, part.log_odds);
     }
@@ -68,6 +72,8 @@ public:
              probability_of(item.log_odds) < config_.existence.min_probability;
     });
     add_new();
+    // What got its name back came last.
+    std::ranges::stable_sort(known_.stuff, {}, &StuffBelief::id);
     return std::move(known_);
   }
 
@@ -109,13 +115,16 @@ private:
     StuffBelief& item = known_.stuff[i];
     StuffLook const& seen = look(i);
     std::vector<LabelCode> labels;
-    int most = 0;
+    double most = 0.0;
     item.label.reset();
     for (ClusterShare const& share : seen.shares) {
       if (is_stuff(share.label) && owners_.owner(share.label) == i) {
         labels.push_back(share.label);
-        if (share.blocks > most) {
-          most = share.blocks;
+        // Not by blocks: what stands nearer shows in more of them, whichever of the two it is.
+        double const amount =
+            amount_shown(*item.model, seen, segmentation_.sight.labels, share.label);
+        if (!item.label || amount > most) {
+          most = amount;
           item.label = share.label;
         }
       }
@@ -250,6 +259,7 @@ private:
   static void forget(StuffBelief& item) {
     item.model = nullptr;
     item.one_with.clear();
+    item.names_kept.clear();
   }
 
   [[nodiscard]] bool mostly_in(std::size_t j, int blocks) const {
@@ -305,28 +315,13 @@ private:
     return std::nullopt;
   }
 
-  /// The one of which more was seen keeps its name.
+  /// The one that is better known of what shows now keeps its name.
   void join(std::size_t a, std::size_t b) {
-    if (amount_seen(*known_.stuff[a].model) < amount_seen(*known_.stuff[b].model)) {
+    if (amount_shown(*models_before_[a], look(a)) < amount_shown(*models_before_[b], look(b))) {
       std::swap(a, b);
     }
-    StuffBelief& first = known_.stuff[a];
-    StuffBelief& second = known_.stuff[b];
-    if (!first.label) {
-      first.label = second.label;
-      first.evidence = second.evidence;
-      double const moved = first.why.moved;
-      first.why = second.why;
-      first.why.moved = moved;
-    }
-    raise_to(first, second.log_odds);
-    first.most_agreeing = std::max(first.most_agreeing, second.most_agreeing);
-    set_model(first, joined_model(*first.model, *second.model),
-              std::max(first.latest().pixel_count, second.latest().pixel_count));
-    first.joined_ids.push_back(second.id);
-    first.joined_ids.insert(first.joined_ids.end(), second.joined_ids.begin(),
-                            second.joined_ids.end());
-    forget(second);
+    become_one(known_.stuff[a], known_.stuff[b]);
+    forget(known_.stuff[b]);
   }
 
   void add_new() {
@@ -349,11 +344,13 @@ private:
   }
 
   void add(std::size_t c, double log_odds) {
+    auto const label = static_cast<LabelCode>(kFirstStuff + c);
+    auto const old = name_of_old(known_.stuff, label, clusters_[c], view_);
     StuffBelief& item = known_.stuff.emplace_back();
-    item.id = known_.next_id++;
+    item.id = old ? old->id : known_.next_id++;
     item.log_odds = log_odds;
-    item.label = static_cast<LabelCode>(kFirstStuff + c);
-    item.history_count = 1;
+    item.label = label;
+    item.history_count = old ? old->history_count + 1 : 1;
     item.last_look = now_;
     begin_model(item, clusters_[c]);
     item.why = account_of_new(*item.model);
@@ -372,6 +369,7 @@ private:
   double elapsed_s_;
   FusionConfig const& config_;
   Look now_;
+  SightView view_;
   StuffLooks looks_;
   /// By label, from kFirstStuff on.
   std::vector<SeenCluster> clusters_;
@@ -382,6 +380,7 @@ private:
   std::vector<double> news_;
   /// Of each thing, before the frame.
   std::vector<double> log_odds_before_;
+  std::vector<std::shared_ptr<StuffModel const>> models_before_;
   std::vector<FoundThing> found_;
   std::vector<Part> parts_;
 };

@@ -89,6 +89,8 @@ void set_model(StuffBelief& item, StuffModel model, std::size_t pixel_count) {
 void begin_model(StuffBelief& item, SeenCluster const& seen) {
   StuffModel model = new_model(seen.points_world, seen.area_m2);
   item.most_agreeing = static_cast<double>(model.points.size());
+  // What became one with it stood where it was.
+  item.names_kept.clear();
   set_model(item, std::move(model), seen.pixel_count);
 }
 

@@ -16,7 +16,8 @@ namespace credo {
 struct FoundThing {
   /// Its place in the belief.
   std::size_t item = 0;
-  /// Clusters that are taken for it, ascending; the thing's own label is that of the largest.
+  /// Clusters that are taken for it, ascending; the thing's own label is that of the one that shows
+  /// most of what was seen of it.
   std::vector<LabelCode> labels;
   /// How much of the frame is news about it.
   double news = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "stages/fusion/stuff_model.hpp"
 
@@ -27,6 +28,19 @@ double total_weight(StuffModel const& model) {
     sum += static_cast<double>(point.weight);
   }
   return sum;
+}
+
+/// Of the points that agree and of which the rest holds.
+template <typename Rest>
+double amount_where(StuffModel const& model, StuffLook const& look, Rest const& rest) {
+  double sum = 0.0;
+  for (std::size_t p = 0; p < look.points.size(); ++p) {
+    if (look.points[p].state == PointState::kAgrees && rest(look.points[p])) {
+      sum += static_cast<double>(model.points[p].weight);
+    }
+  }
+  auto const spacing_m = static_cast<double>(model.spacing_m);
+  return sum * spacing_m * spacing_m;
 }
 
 }  // namespace
@@ -66,9 +80,15 @@ void shows_alone(StuffBelief& item, std::vector<StuffBelief> const& stuff, doubl
   });
 }
 
-double amount_seen(StuffModel const& model) {
-  auto const spacing_m = static_cast<double>(model.spacing_m);
-  return total_weight(model) * spacing_m * spacing_m;
+double amount_shown(StuffModel const& model, StuffLook const& look) {
+  return amount_where(model, look, [](PointLook const&) { return true; });
+}
+
+double amount_shown(StuffModel const& model, StuffLook const& look, LabelMap const& shown,
+                    LabelCode label) {
+  return amount_where(model, look, [&](PointLook const& point) {
+    return shown[static_cast<std::size_t>(point.block)] == label;
+  });
 }
 
 }  // namespace credo

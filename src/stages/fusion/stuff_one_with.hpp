@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "core/belief.hpp"
+#include "core/label.hpp"
+#include "stages/fusion/stuff_looks.hpp"
 
 namespace credo {
 
@@ -28,7 +30,12 @@ inline constexpr std::uint32_t kKnownThings = 0;
 /// thing, what does so only now and then is two.
 void shows_alone(StuffBelief& item, std::vector<StuffBelief> const& stuff, double news);
 
-/// How much was seen of it, how often: square metres of surface times looks.
-[[nodiscard]] double amount_seen(StuffModel const& model);
+/// How much of what was seen of a thing a look shows, how often that was seen: square metres of
+/// surface times looks. `model` is the one that was looked at; 0 where it is out of view.
+[[nodiscard]] double amount_shown(StuffModel const& model, StuffLook const& look);
+
+/// The same of what shows in one of the frame's clusters; `shown` has each block's label.
+[[nodiscard]] double amount_shown(StuffModel const& model, StuffLook const& look,
+                                  LabelMap const& shown, LabelCode label);
 
 }  // namespace credo

@@ -14,7 +14,7 @@ namespace {
 constexpr float kEnoughLooks = 3.0F;
 constexpr double kShareOfPart = 0.6;
 constexpr int kLeastPoints = 8;
-/// One look that shows a point in the thing's largest cluster undoes so many that do not.
+/// One look that shows a point in the thing's main cluster undoes so many that do not.
 constexpr float kOfOneTogether = 3.0F;
 // Carving.
 constexpr float kLeastMissed = 0.1F;
@@ -43,7 +43,7 @@ void count_misses(StuffModel& model, StuffLook const& look, LabelMap const& show
 }
 
 SplitModel split_model(StuffModel model, StuffLook const& look, LabelMap const& shown,
-                       LabelCode largest, std::span<LabelCode const> labels, double news) {
+                       LabelCode main, std::span<LabelCode const> labels, double news) {
   auto const more = static_cast<float>(news);
   std::vector<LabelCode> shown_as(model.points.size(), kNoDepth);
   std::vector<std::uint8_t> gone(model.points.size(), 0);
@@ -58,7 +58,7 @@ SplitModel split_model(StuffModel model, StuffLook const& look, LabelMap const& 
     }
     SurfacePoint& point = model.points[p];
     point.apart =
-        std::max(0.0F, point.apart + (shown_as[p] == largest ? -kOfOneTogether * more : more));
+        std::max(0.0F, point.apart + (shown_as[p] == main ? -kOfOneTogether * more : more));
     bool const anothers = !own && point.apart > kEnoughLooks * point.weight / kMostWeight;
     gone[p] = anothers ? 1 : 0;
   }
@@ -71,7 +71,7 @@ SplitModel split_model(StuffModel model, StuffLook const& look, LabelMap const& 
       points += here ? 1 : 0;
       apart += here && model.points[p].apart > kEnoughLooks ? 1 : 0;
     }
-    if (label == largest || points < kLeastPoints || apart <= kShareOfPart * points) {
+    if (label == main || points < kLeastPoints || apart <= kShareOfPart * points) {
       continue;
     }
     for (std::size_t p = 0; p < model.points.size(); ++p) {

@@ -21,13 +21,14 @@ struct SplitModel {
   std::vector<LabelCode> parts;
 };
 
-/// What shows look after look as a cluster beside the thing's largest one is a thing of its own.
+/// What shows look after look as a cluster beside the thing's main one is a thing of its own.
 /// Single points that show as floor, wall, known object or in others' clusters go, the sooner the
 /// fewer looks they come from.
-/// The thing was found in the clusters `labels`, of which `largest` is the largest; `news` is how
-/// much of the look counts (novelty). The look must be at this model, with all its points.
+/// The thing was found in the clusters `labels`, of which `main` shows most of what was seen of
+/// it; `news` is how much of the look counts (novelty). The look must be at this model, with all
+/// its points.
 [[nodiscard]] SplitModel split_model(StuffModel model, StuffLook const& look, LabelMap const& shown,
-                                     LabelCode largest, std::span<LabelCode const> labels,
+                                     LabelCode main, std::span<LabelCode const> labels,
                                      double news);
 
 }  // namespace credo

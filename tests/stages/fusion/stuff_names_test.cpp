@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -117,6 +118,33 @@ TEST(StuffItems, OfTwoThatAreOneTheBetterKnownKeepsItsName) {
   ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
   room.show({.boards = {{kFirst}}}, 10);
   EXPECT_THAT(room.ids(), testing::ElementsAre(2U));
+}
+
+// What the better known one shows no more says nothing of what both are called.
+TEST(StuffItems, OfTwoThatAreOneTheBetterKnownOfWhatShowsKeepsItsName) {
+  Board const wide{kFirst, -0.4, 0.0, 0.4, 0.2};
+  Board const narrow{kSecond, 0.0, 0.0, 0.26, 0.2};
+  for (bool const hidden : {false, true}) {
+    Room room;
+    room.show({.boards = {wide, narrow}}, 12);
+    ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+    Board const both{kFirst, -0.4, 0.0, 0.66, 0.2};
+    Board const in_front{std::nullopt, -0.4, -0.1, 0.28, 0.4, 1.2};
+    room.show({.boards = hidden ? std::vector{in_front, both} : std::vector{both}}, 40);
+    EXPECT_THAT(room.ids(), testing::ElementsAre(hidden ? 2U : 1U));
+  }
+}
+
+// However much of the image the other takes up.
+TEST(StuffItems, OfAThingInPiecesTheBestKnownIsTheMainOne) {
+  Room room;
+  Board const known{kFirst, 0.0, 0.0, 0.12, 0.2};
+  room.show({.boards = {known}}, 12);
+  room.show({.boards = {{kFirst, 0.0, 0.0, 0.28, 0.2}}}, 2);
+  Board const larger{kSecond, 0.12, 0.0, 0.16, 0.2};
+  room.show({.boards = {known, larger}});
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
+  EXPECT_EQ(room.stuff()[0].label, kFirst);
 }
 
 TEST(StuffItems, WhatBecomesOneWithAnotherIsToldInThatFrameAlone) {
