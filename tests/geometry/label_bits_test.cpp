@@ -1,11 +1,12 @@
 #include "geometry/label_bits.hpp"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <random>
 #include <utility>
 #include <vector>
+
+#include "support/instruction_sets.hpp"
 
 namespace credo {
 namespace {
@@ -13,18 +14,13 @@ namespace {
 constexpr std::uint64_t kGuard = 0x1234567890ABCDEFU;
 
 template <typename Check>
-void on_every_instruction_set(Check const& check) {
-  for (std::int64_t const target : hwy::SupportedAndGeneratedTargets()) {
-    SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+void for_each_size(Check const& check) {
+  test::on_every_instruction_set([&] {
     for (std::size_t const count : {0U, 1U, 2U, 63U, 64U, 65U, 128U, 129U, 640U, 1024U, 1100U}) {
       SCOPED_TRACE(count);
       check(count);
     }
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  });
 }
 
 /// Two bits of each label that change, high ones among them.
@@ -69,12 +65,12 @@ void expect_different_are_marked(std::size_t count) {
 }
 
 TEST(LabelBits, AreOneWhereLabelsDiffer) {
-  on_every_instruction_set(expect_different_are_marked<std::int32_t>);
-  on_every_instruction_set(expect_different_are_marked<LabelCode>);
+  for_each_size(expect_different_are_marked<std::int32_t>);
+  for_each_size(expect_different_are_marked<LabelCode>);
 }
 
 TEST(LabelBits, AreOneWhereItIsThatLabel) {
-  on_every_instruction_set([](std::size_t count) {
+  for_each_size([](std::size_t count) {
     std::vector<LabelCode> const labels = drawn<LabelCode>(count, 3);
     for (auto const label : {LabelCode{0}, LabelCode{1}, LabelCode{0x4000}}) {
       EXPECT_EQ(
@@ -100,7 +96,7 @@ TEST(LabelRuns, EndWhereEitherRowChanges) {
 }
 
 TEST(LabelRuns, AreThoseOfAPlainLoop) {
-  on_every_instruction_set([](std::size_t count) {
+  for_each_size([](std::size_t count) {
     std::mt19937 random(1);
     for (unsigned const most : {1U, 2U, 20U, 3000U}) {
       std::vector<LabelCode> codes(count);

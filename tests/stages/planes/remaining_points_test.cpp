@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "stages/planes/labelled_pixels.hpp"
 #include "stages/planes/small_shots.hpp"
 
 namespace credo::test {
@@ -45,7 +44,6 @@ std::size_t count_of(PixelSet const& pixels) {
 // normals, for another plane that had it, or because it held hardly any of its segment.
 TEST(RemainingPoints, KnowAllThatLiesInAPlaneAndIsNotItsOwn) {
   Shot const shot = boxes();
-  OrganizedCloud const& cloud = shot.frame.cloud_camera;
   PlanesConfig const config = small_planes();
   std::size_t open_alone = 0;
   std::size_t given_back = 0;
@@ -56,18 +54,8 @@ TEST(RemainingPoints, KnowAllThatLiesInAPlaneAndIsNotItsOwn) {
                                            std::abs(std::floor(p.z() / size_m))) %
                      8;
     });
-    CountedPixels const all = pixels_where(cloud.size(), [&](auto i) { return cloud.valid(i); });
-    PlaneView const view{cloud,
-                         shot.normals,
-                         shot.T_world_camera,
-                         true,
-                         static_cast<float>(shot.frame.intrinsics.fx_px),
-                         config,
-                         {0.015F, 4.0F, std::cos(0.35F)},
-                         PixelBoxes(cloud),
-                         SegmentPieces(segments),
-                         all};
-    RemainingPoints remaining(view, segments, all);
+    PlaneView const view = plane_view_of(shot, segments, config);
+    RemainingPoints remaining(view, segments, view.valid);
     for (Plane const& suggested : remaining.suggested()) {
       std::optional<PixelPlane> plane = remaining.take(suggested);
       if (!plane) {
@@ -76,7 +64,7 @@ TEST(RemainingPoints, KnowAllThatLiesInAPlaneAndIsNotItsOwn) {
       std::size_t const taken = plane->inliers.count;
       remaining.settle(*plane);
       given_back += taken - plane->inliers.count;
-      PixelSet unknown = left_beside(view, *plane, all.pixels);
+      PixelSet unknown = left_beside(view, *plane, view.valid.pixels);
       unknown.remove(plane->turned);
       open_alone += count_of(unknown);
       unknown.remove(plane->open);

@@ -18,19 +18,9 @@ namespace {
 /// In the world, normals up or towards +x or +y.
 std::vector<Plane> suggested(Shot const& shot, Segments const& segments, bool floor_at_zero,
                              PlanesConfig const& config = small_planes()) {
-  OrganizedCloud const& cloud = shot.frame.cloud_camera;
-  CountedPixels valid = pixels_where(cloud.size(), [&](std::size_t i) { return cloud.valid(i); });
-  PlaneView const view{cloud,
-                       shot.normals,
-                       shot.T_world_camera,
-                       floor_at_zero,
-                       static_cast<float>(shot.frame.intrinsics.fx_px),
-                       config,
-                       {0.015F, 4.0F, std::cos(0.35F)},
-                       PixelBoxes(cloud),
-                       SegmentPieces(segments),
-                       valid};
-  PlaneSearchPoints const sample = sample_of(valid, 4096, cloud, shot.normals, view.tolerance);
+  PlaneView const view = plane_view_of(shot, segments, config, floor_at_zero);
+  CountedPixels const& valid = view.valid;
+  PlaneSearchPoints const sample = sample_of(valid, 4096, view.cloud, shot.normals, view.tolerance);
   double const pixels_per_point =
       static_cast<double>(valid.count) / std::max(1.0, static_cast<double>(sample.size()));
   std::vector<Plane> planes = segment_planes(view, segments, sample, pixels_per_point);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -8,6 +9,7 @@
 
 #include "core/segments.hpp"
 #include "stages/planes/pixel_set.hpp"
+#include "stages/planes/plane_view.hpp"
 #include "stages/planes/planes.hpp"
 #include "support/world_scene.hpp"
 
@@ -31,6 +33,22 @@ CountedPixels pixels_where(std::size_t pixels, Test const& test) {
     }
   }
   return result;
+}
+
+/// Of a whole shot, which outlives it as do the segments and settings.
+inline PlaneView plane_view_of(Shot const& shot, Segments const& segments,
+                               PlanesConfig const& config, bool floor_at_zero = true) {
+  OrganizedCloud const& cloud = shot.frame.cloud_camera;
+  return {cloud,
+          shot.normals,
+          shot.T_world_camera,
+          floor_at_zero,
+          static_cast<float>(shot.frame.intrinsics.fx_px),
+          config,
+          {0.015F, 4.0F, std::cos(0.35F)},
+          PixelBoxes(cloud),
+          SegmentPieces(segments),
+          pixels_where(cloud.size(), [&](std::size_t i) { return cloud.valid(i); })};
 }
 
 /// World position of a pixel.

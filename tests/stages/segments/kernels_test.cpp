@@ -2,7 +2,6 @@
 #include "stages/segments/kernels.hpp"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 
 #include "stages/segments/padded_grid.hpp"
 #include "stages/segments/row_bits.hpp"
+#include "support/instruction_sets.hpp"
 
 namespace credo::segments {
 namespace {
@@ -25,18 +25,13 @@ constexpr std::array<int, 9> kWidths = {1, 2, 15, 16, 31, 33, 64, 100, 323};
 constexpr int kHeight = 5;
 
 template <typename Check>
-void on_every_instruction_set(Check const& check) {
-  for (std::int64_t const target : hwy::SupportedAndGeneratedTargets()) {
-    SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+void for_each_size(Check const& check) {
+  test::on_every_instruction_set([&] {
     for (int const width : kWidths) {
       SCOPED_TRACE(width);
       check(width);
     }
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  });
 }
 
 /// What a kernel wrote: the row, and behind it room for one vector more and a guard.
@@ -106,7 +101,7 @@ TEST(SegmentKernels, Disparity) {
                             std::numeric_limits<float>::max(),
                             0.01F,
                             2e4F};
-  on_every_instruction_set([&](int width) {
+  for_each_size([&](int width) {
     std::mt19937 random(static_cast<unsigned>(width));
     std::uniform_real_distribution<float> depth(0.15F, 10.0F);
     std::vector<float> depth_m(static_cast<std::size_t>(width) + 64);
@@ -141,7 +136,7 @@ int plain_smooth(std::int16_t const* centre, std::ptrdiff_t stride, int radius, 
 }
 
 TEST(SegmentKernels, Smooth) {
-  on_every_instruction_set([](int width) {
+  for_each_size([](int width) {
     for (Heights const& heights : surfaces(width, 150)) {
       for (auto const& [radius, limit] : {std::pair(1, 16), std::pair(2, 96), std::pair(8, 112)}) {
         Row<std::int16_t> out(width);
@@ -157,7 +152,7 @@ TEST(SegmentKernels, Smooth) {
 
 TEST(SegmentKernels, SmoothHoldsTheSumOfTheLargestWindow) {
   // All of 289 pixels but one as far above it as they may be.
-  on_every_instruction_set([](int width) {
+  for_each_size([](int width) {
     PaddedGrid<std::int16_t> heights(width, 17);
     for (int v = 0; v < 17; ++v) {
       std::fill_n(heights.row(v), width, std::int16_t{211});
@@ -188,7 +183,7 @@ std::pair<int, int> plain_bend(std::int16_t const* centre, std::array<std::ptrdi
 }
 
 TEST(SegmentKernels, Concavity) {
-  on_every_instruction_set([](int width) {
+  for_each_size([](int width) {
     for (Heights const& heights : surfaces(width, 200)) {
       for (int const limit : {100, 240, 1600}) {
         std::array<std::ptrdiff_t, 4> const offsets = {
@@ -214,7 +209,7 @@ TEST(SegmentKernels, Concavity) {
 }
 
 TEST(SegmentKernels, Crease) {
-  on_every_instruction_set([](int width) {
+  for_each_size([](int width) {
     std::mt19937 random(static_cast<unsigned>(width));
     Heights const concavity = drawn<std::int16_t>(width, [&] { return random() % 3199; });
     Heights const steepness = drawn<std::int16_t>(width, [&] { return random() % 3199; });
@@ -245,7 +240,7 @@ TEST(SegmentKernels, Crease) {
 }
 
 TEST(SegmentKernels, Thicken) {
-  on_every_instruction_set([](int width) {
+  for_each_size([](int width) {
     for (std::uint8_t level = 1; level <= 3; ++level) {
       std::mt19937 random(static_cast<unsigned>(width + level));
       Bytes const bytes = drawn<std::uint8_t>(width, [&] {
@@ -267,7 +262,7 @@ TEST(SegmentKernels, Thicken) {
 }
 
 TEST(SegmentKernels, Worth) {
-  on_every_instruction_set([](int width) {
+  for_each_size([](int width) {
     for (Heights const& heights : surfaces(width, 100)) {
       std::mt19937 random(1);
       Bytes thickness = drawn<std::uint8_t>(width, [&] { return random() % 5; });
@@ -285,7 +280,7 @@ TEST(SegmentKernels, Worth) {
 
 TEST(SegmentKernels, Flood) {
   constexpr std::int16_t kLink = 40;
-  on_every_instruction_set([](int width) {
+  for_each_size([](int width) {
     for (Heights const& heights : surfaces(width, 100)) {
       std::mt19937 random(2);
       Bytes const worth = drawn<std::uint8_t>(width, [&] { return random() % 3; });
@@ -319,7 +314,7 @@ std::vector<std::uint8_t> written_bits(int width, Write const& write) {
 }
 
 TEST(SegmentKernels, Front) {
-  on_every_instruction_set([](int width) {
+  for_each_size([](int width) {
     std::mt19937 random(static_cast<unsigned>(width));
     Bytes const bytes =
         drawn<std::uint8_t>(width, [&] { return random() % 3 == 0 ? random() % 6 : 0U; });
@@ -337,7 +332,7 @@ TEST(SegmentKernels, Front) {
 }
 
 TEST(SegmentKernels, AtLeast) {
-  on_every_instruction_set([](int width) {
+  for_each_size([](int width) {
     std::mt19937 random(static_cast<unsigned>(width));
     Bytes const bytes = drawn<std::uint8_t>(width, [&] { return random() % 6; });
     for (std::uint8_t least = 1; least <= 5; ++least) {
