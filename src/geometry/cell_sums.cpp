@@ -15,9 +15,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "geometry/mask_lanes-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace credo::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+using lanes::HWY_NAMESPACE::bits_of;
 
 using Floats = hn::CappedTag<float, CellSums::kLanes>;
 using Ints = hn::RebindToSigned<Floats>;
@@ -68,9 +71,7 @@ HWY_INLINE std::uint64_t begins_at(CellSums::Chunk const& chunk, std::size_t i) 
     auto const before = hn::LoadU(d, cells.data() + i);
     differences = hn::Or(differences, hn::Xor(hn::LoadU(d, cells.data() + i + 1), before));
   }
-  std::array<std::uint8_t, 8> bits{};
-  hn::StoreMaskBits(d, hn::Ne(differences, hn::Zero(d)), bits.data());
-  return bits[0] & ((1U << hn::Lanes(d)) - 1U);
+  return bits_of(d, hn::Ne(differences, hn::Zero(d)));
 }
 
 // Moves points, finds their cells (kNoCell where a coordinate is not finite) and where these begin,

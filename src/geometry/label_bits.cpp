@@ -7,22 +7,13 @@
 //
 #include <hwy/highway.h>
 
+#include "geometry/mask_lanes-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace credo::label_bits::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-template <class D>
-HWY_INLINE std::uint64_t bits_of(D d, hn::Mask<D> mask) {
-  std::array<std::uint8_t, 8> bytes{};
-  hn::StoreMaskBits(d, mask, bytes.data());
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    bits |= std::uint64_t{bytes[i]} << (8 * i);
-  }
-  // Fewer lanes than bits in a byte leave the rest open.
-  return hn::Lanes(d) < 64 ? bits & ((std::uint64_t{1} << hn::Lanes(d)) - 1) : bits;
-}
+using lanes::HWY_NAMESPACE::bits_of;
 
 /// Whole words of what `mask_at` tells, then one of what `is_at` tells of what is left.
 template <class D, class MaskAt, class IsAt>

@@ -223,8 +223,12 @@ std::optional<FoundPlane> find_largest_plane(PlaneSearchPoints const& points,
   if (points.size() < 3) {
     return std::nullopt;
   }
-  PlaneSearchPoints const scored =
-      spread_subset(points, static_cast<std::size_t>(limits.scoring_points));
+  auto const most_scored = static_cast<std::size_t>(limits.scoring_points);
+  PlaneSearchPoints some;
+  if (points.size() > most_scored) {
+    some = spread_subset(points, most_scored);
+  }
+  PlaneSearchPoints const& scored = points.size() > most_scored ? some : points;
   Sampler sampler(points, limits);
   std::optional<Plane> best;
   std::size_t best_count = 0;

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "geometry/mask_lanes-inl.hpp"
 #include "geometry/reachability_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -65,9 +66,7 @@ HWY_INLINE Mask within_reach(Oriented const& a, Oriented const& b, ReachThreshol
 }
 
 HWY_INLINE std::uint64_t bits_of(Mask mask) {
-  std::array<std::uint8_t, 8> bytes{};
-  hn::StoreMaskBits(Floats(), mask, bytes.data());
-  return bytes[0];
+  return lanes::HWY_NAMESPACE::bits_of(Floats(), mask);
 }
 
 HWY_INLINE Mask mask_of(std::uint64_t bits) {

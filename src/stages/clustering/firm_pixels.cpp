@@ -15,6 +15,8 @@
 //
 #include <hwy/highway.h>
 
+#include "geometry/mask_lanes-inl.hpp"
+
 #include "core/bits.hpp"
 #include "geometry/reachability_runs.hpp"
 
@@ -34,6 +36,7 @@ struct Row {
 HWY_BEFORE_NAMESPACE();
 namespace credo::firm::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+using lanes::HWY_NAMESPACE::bits_of;
 
 using FirmLanes = hn::CappedTag<float, 16>;
 
@@ -51,9 +54,7 @@ HWY_INLINE std::uint64_t bits_from(Row a, Row b, std::size_t i) {
       hn::Lt(hn::Abs(hn::Sub(a_m, b_m)), hn::Mul(hn::Set(d, kFirm_per_m), hn::Mul(a_m, b_m)));
   auto const no_stuff = hn::Lt(label, hn::Set(di, kFirstStuff));
   auto const together = hn::And(hn::Eq(label, other), hn::Or(hn::RebindMask(di, near), no_stuff));
-  std::array<std::uint8_t, 8> bytes{};
-  hn::StoreMaskBits(di, together, bytes.data());
-  return (bytes[0] | (std::uint64_t{bytes[1]} << 8U)) & ((1U << hn::Lanes(d)) - 1U);
+  return bits_of(di, together);
 }
 
 void together_lanes(Row a, Row b, std::size_t words, std::uint64_t* together) {

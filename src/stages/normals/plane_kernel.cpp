@@ -73,7 +73,7 @@ struct CentralMoments {
   }
 };
 
-HWY_NOINLINE Fit fit(Moments const& m) {
+HWY_INLINE Fit fit(Moments const& m) {
   CentralMoments const about(m);
   V const a = about.a_det() / about.det;
   V const b = about.b_det() / about.det;
@@ -82,7 +82,7 @@ HWY_NOINLINE Fit fit(Moments const& m) {
 
 /// Mean squared residual of the plane; huge where the samples do not span one. With one division:
 /// these take longest, and most windows are asked five times.
-HWY_NOINLINE V variance_of(Moments const& m) {
+HWY_INLINE V variance_of(Moments const& m) {
   CentralMoments const about(m);
   V const explained_det = about.a_det() * about.uw + about.b_det() * about.vw;
   V const variance =

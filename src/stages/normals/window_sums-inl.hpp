@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "geometry/mask_lanes-inl.hpp"
 #include "stages/normals/lanes-inl.hpp"
 #include "stages/normals/plane_kernel.hpp"
 
@@ -33,8 +34,9 @@ HWY_INLINE Moments only_where(M where, Moments const& m) {
           hn::IfThenElseZero(where, m.vw), hn::IfThenElseZero(where, m.ww)};
 }
 
-// What hands over a dozen vectors or more is HWY_NOINLINE: they go through memory anyway, and all
-// in one function takes compilers minutes, with sanitizers most of all.
+// What is done once a window and hands over a dozen vectors is HWY_NOINLINE: all in one function
+// takes compilers minutes, with sanitizers most of all. What is done for each quadrant is inlined:
+// the way through memory would cost a seventh of the time.
 
 /// Sums over the samples of one part of a window. Columns and rows count from the centre outwards
 /// (never negative), whichever side the part is on.
@@ -74,15 +76,17 @@ struct Samples {
 };
 
 /// One sample, u columns and v rows outwards, where it lies within the tolerance.
-HWY_INLINE Sums tap(Samples const& samples, float const* sample, int u, int v) {
-  DI const di;
+struct Tap {
+  M member;
+  VI counts;
+  V w;
+};
+HWY_INLINE Tap tap(Samples const& samples, float const* sample, int u, int v) {
   V const difference = hn::LoadU(D(), sample) - samples.centre_w;
   V const limit = samples.tolerance[static_cast<std::size_t>(u > v ? u : v)];
   M const member = hn::Abs(difference) <= limit;
-  VI const counts = hn::Set(di, 1 | (u << kFieldBits) | (u * u << (2 * kFieldBits)));
-  VI const n_u_uu = hn::IfThenElseZero(hn::RebindMask(di, member), counts);
-  V const w = hn::IfThenElseZero(member, difference);
-  return {n_u_uu, n_u_uu, n_u_uu, w, w, w, w * w};
+  VI const counts = hn::Set(DI(), 1 | (u << kFieldBits) | (u * u << (2 * kFieldBits)));
+  return {member, counts, hn::IfThenElseZero(member, difference)};
 }
 
 /// Columns 1 to kColumns of row v of a part that lies to the left (-1) or right (1) of the centre;
@@ -90,15 +94,20 @@ HWY_INLINE Sums tap(Samples const& samples, float const* sample, int u, int v) {
 template <int kColumns, int kSide>
 HWY_INLINE Sums row_sums(Samples const& samples, float const* row, int v) {
   // From the outside in: what is added again at every step is weighted by its distance.
-  Sums sums = tap(samples, row + kSide * kColumns * samples.right, kColumns, v);
+  Tap const last = tap(samples, row + kSide * kColumns * samples.right, kColumns, v);
+  VI n_u_uu = hn::IfThenElseZero(hn::RebindMask(DI(), last.member), last.counts);
+  V w = last.w;
+  V uw = last.w;
+  V ww = last.w * last.w;
   for (int u = kColumns - 1; u >= 1; --u) {
-    Sums const next = tap(samples, row + kSide * u * samples.right, u, v);
-    sums.n_u_uu = sums.n_u_uu + next.n_u_uu;
-    sums.w = sums.w + next.w;
-    sums.uw = sums.uw + sums.w;
-    sums.ww = sums.ww + next.ww;
+    Tap const next = tap(samples, row + kSide * u * samples.right, u, v);
+    n_u_uu =
+        lanes::HWY_NAMESPACE::add_where(hn::RebindMask(DI(), next.member), n_u_uu, next.counts);
+    w = w + next.w;
+    uw = uw + w;
+    ww = ww + next.w * next.w;
   }
-  return {sums.n_u_uu, sums.n_u_uu, sums.n_u_uu, sums.w, sums.uw, sums.w, sums.ww};
+  return {n_u_uu, n_u_uu, n_u_uu, w, uw, w, ww};
 }
 
 /// Rows 1 to kRows of a part above (-1) or below (1) the centre; row 0 alone for 0.
@@ -134,8 +143,8 @@ HWY_INLINE Parts parts_of(Samples const& samples) {
 }
 
 /// Moments of a corner with its two arms and the centre, columns and rows counted outwards.
-inline HWY_NOINLINE Moments quadrant(Sums const& corner, Sums const& above, Sums const& beside,
-                                     Sums const& centre) {
+HWY_INLINE Moments quadrant(Sums const& corner, Sums const& above, Sums const& beside,
+                            Sums const& centre) {
   VI const n_u_uu = (corner.n_u_uu + above.n_u_uu) + (beside.n_u_uu + centre.n_u_uu);
   VI const rows_1 = corner.rows_1 + above.rows_1;
   VI const rows_2 = field<0>(corner.rows_2 + above.rows_2);

@@ -12,6 +12,8 @@
 //
 #include <hwy/highway.h>
 
+#include "geometry/mask_lanes-inl.hpp"
+
 #ifndef CREDO_STAGES_PLANES_PLANE_PIXELS_ONCE
 #define CREDO_STAGES_PLANES_PLANE_PIXELS_ONCE
 namespace credo::planes {
@@ -37,17 +39,11 @@ HWY_BEFORE_NAMESPACE();
 namespace credo::planes::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+using lanes::HWY_NAMESPACE::bits_of;
 
 using D = hn::CappedTag<float, 16>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
-
-std::uint64_t bits_of(M mask) {
-  std::array<std::uint8_t, 8> bytes{};
-  hn::StoreMaskBits(D(), mask, bytes.data());
-  std::uint64_t const all = bytes[0] | (std::uint64_t{bytes[1]} << 8U);
-  return all & ((std::uint64_t{1} << hn::Lanes(D())) - 1);
-}
 
 V dot(FloatPlane const& plane, float const* const arrays[3], std::size_t i) {
   D const d;
@@ -76,7 +72,7 @@ std::uint64_t near_bits(FloatPlane const& plane, Words const& words, std::size_t
     std::size_t const i = begin + lane;
     V const limit_m = tolerance_m(plane.tolerance, hn::LoadU(d, words.point[2] + i));
     V const distance_m = hn::Sub(dot(plane, words.point, i), hn::Set(d, plane.offset_m));
-    bits |= bits_of(hn::Le(hn::Abs(distance_m), limit_m)) << lane;
+    bits |= bits_of(d, hn::Le(hn::Abs(distance_m), limit_m)) << lane;
   }
   return bits;
 }
@@ -87,7 +83,7 @@ std::uint64_t turned_bits(FloatPlane const& plane, Words const& words, std::size
   std::uint64_t bits = 0;
   for (std::size_t lane = 0; lane < PixelSet::kWordBits; lane += hn::Lanes(d)) {
     V const cosine = hn::Abs(dot(plane, words.normal, begin + lane));
-    bits |= bits_of(hn::Lt(cosine, hn::Set(d, plane.tolerance.min_cosine))) << lane;
+    bits |= bits_of(d, hn::Lt(cosine, hn::Set(d, plane.tolerance.min_cosine))) << lane;
   }
   return bits;
 }
@@ -122,7 +118,7 @@ std::size_t mark_behind(FloatPlane const& plane, Words const& words, std::uint64
       std::size_t const i = w * PixelSet::kWordBits + lane;
       V const limit_m = tolerance_m(plane.tolerance, hn::LoadU(d, words.point[2] + i));
       V const distance_m = hn::Sub(dot(plane, words.point, i), hn::Set(d, plane.offset_m));
-      bits |= bits_of(hn::Lt(distance_m, hn::Neg(limit_m))) << lane;
+      bits |= bits_of(d, hn::Lt(distance_m, hn::Neg(limit_m))) << lane;
     }
     behind[w] = bits & words.asked[w];
     count += static_cast<std::size_t>(std::popcount(behind[w]));

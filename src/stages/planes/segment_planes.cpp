@@ -71,7 +71,7 @@ void search(PlaneView const& view, PlaneSearchPoints const& sample,
   PlaneSearchPoints points = spread_points(sample, positions);
   double const least_spread =
       least * static_cast<double>(points.size()) / static_cast<double>(positions.size());
-  for (int k = 0; k < kMostPlanes; ++k) {
+  for (int k = 0; k < kMostPlanes && static_cast<double>(points.size()) >= least_spread; ++k) {
     std::optional<FoundPlane> const found =
         find_largest_plane(points, {config.sampling, config.max_angle_rad, config.confidence,
                                     config.max_hypotheses, config.scoring_points, seed});

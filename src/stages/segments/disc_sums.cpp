@@ -10,11 +10,14 @@
 //
 #include <hwy/highway.h>
 
+#include "geometry/mask_lanes-inl.hpp"
+
 #include "stages/segments/limits.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace credo::segments::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+using lanes::HWY_NAMESPACE::add_where;
 
 using DiscLanes = hn::CappedTag<std::int32_t, 16>;
 using DiscVec = hn::Vec<DiscLanes>;
@@ -46,9 +49,9 @@ HWY_INLINE Terms terms_at(std::int16_t const* disparity, DiscVec u, int row_v) {
           hn::ShiftRight<16>(dd)};
 }
 
-HWY_INLINE void add_where(hn::Mask<DiscLanes> where, Terms const& terms, Terms& sums) {
+HWY_INLINE void add_terms_where(hn::Mask<DiscLanes> where, Terms const& terms, Terms& sums) {
   for (std::size_t i = 0; i < kTerms; ++i) {
-    sums[i] = sums[i] + hn::IfThenElseZero(where, terms[i]);
+    sums[i] = add_where(where, sums[i], terms[i]);
   }
 }
 
@@ -89,8 +92,8 @@ HWY_INLINE void add_rows(DiscCentre const& centre, std::span<DiscRow const> rows
       DiscVec const us = hn::Set(d, u) + columns;
       auto const inside = us < end;
       Terms const terms = terms_at(centre.disparity + at, us, row.v);
-      add_where(hn::And(inside, labels == a), terms, sums_a);
-      add_where(hn::And(inside, labels == b), terms, sums_b);
+      add_terms_where(hn::And(inside, labels == a), terms, sums_a);
+      add_terms_where(hn::And(inside, labels == b), terms, sums_b);
     }
   }
   add_lanes(sums_a, sums.a);

@@ -1,6 +1,7 @@
 #include "stages/segments/kernels.hpp"
 
 #include <bit>
+#include <type_traits>
 
 #include "stages/segments/limits.hpp"
 
@@ -10,9 +11,14 @@
 //
 #include <hwy/highway.h>
 
+#include "geometry/mask_lanes-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace credo::segments::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+using lanes::HWY_NAMESPACE::add_where;
+using lanes::HWY_NAMESPACE::max_where;
+using lanes::HWY_NAMESPACE::store_bits;
 
 // At most the 64 columns of a row's margin.
 using D16 = hn::CappedTag<std::int16_t, 32>;
@@ -80,13 +86,14 @@ struct WindowSums {
   V16 sum;
   V16 count;
 };
-template <bool kInvalidIsFar>
-HWY_INLINE WindowSums window_sums(std::int16_t const* centre, std::ptrdiff_t stride, int radius,
+template <bool kInvalidIsFar, class Radius>
+HWY_INLINE WindowSums window_sums(std::int16_t const* centre, std::ptrdiff_t stride, Radius radius,
                                   V16 c, V16 limit) {
   D16 const d;
   V16 const zero = hn::Zero(d);
   V16 sum = zero;
-  V16 minus_count = zero;
+  V16 count = zero;
+  V16 const one = constant(1);
   for (int dv = -radius; dv <= radius; ++dv) {
     std::int16_t const* const row = centre + dv * stride;
     for (int du = -radius; du <= radius; ++du) {
@@ -96,15 +103,16 @@ HWY_INLINE WindowSums window_sums(std::int16_t const* centre, std::ptrdiff_t str
       if constexpr (!kInvalidIsFar) {
         member = hn::And(member, other > zero);
       }
-      sum = sum + hn::IfThenElseZero(member, difference);
-      minus_count = minus_count + hn::VecFromMask(d, member);
+      sum = add_where(member, sum, difference);
+      count = add_where(member, count, one);
     }
   }
-  return {sum, zero - minus_count};
+  return {sum, count};
 }
 
-void smooth_row_lanes(std::int16_t const* centre, std::ptrdiff_t stride, int radius,
-                      std::int16_t limit, std::size_t count, std::int16_t* out) {
+template <class Radius>
+HWY_INLINE void smooth_row_within(std::int16_t const* centre, std::ptrdiff_t stride, Radius radius,
+                                  std::int16_t limit, std::size_t count, std::int16_t* out) {
   D16 const d;
   V16 const most = constant(limit);
   for (std::size_t u = 0; u < count; u += hn::Lanes(d)) {
@@ -118,23 +126,32 @@ void smooth_row_lanes(std::int16_t const* centre, std::ptrdiff_t stride, int rad
   }
 }
 
-/// Of one pair: a + b - 2c, and |a - b|; 0 where it does not count. The centre's own validity is
-/// left out.
+void smooth_row_lanes(std::int16_t const* centre, std::ptrdiff_t stride, int radius,
+                      std::int16_t limit, std::size_t count, std::int16_t* out) {
+  // What cameras have by default: without loops.
+  using Usual = std::integral_constant<int, 2>;
+  if (radius == Usual::value) {
+    smooth_row_within(centre, stride, Usual(), limit, count, out);
+  } else {
+    smooth_row_within(centre, stride, radius, limit, count, out);
+  }
+}
+
+/// Of one pair: a + b - 2c, and a - b; only where it counts. The centre's own validity is left out.
 struct PairHeights {
+  M16 counts;
   V16 concavity;
-  V16 steepness;
+  V16 rise;
 };
 template <bool kInvalidIsFar>
 HWY_INLINE PairHeights heights_of(V16 c, V16 a, V16 b, V16 limit) {
-  V16 const zero = hn::Zero(D16());
   V16 const to_a = a - c;
   V16 const to_b = b - c;
   M16 one_surface = hn::Max(hn::Abs(to_a), hn::Abs(to_b)) < limit;
   if constexpr (!kInvalidIsFar) {
-    one_surface = hn::And(one_surface, hn::Min(a, b) > zero);
+    one_surface = hn::And(one_surface, hn::Min(a, b) > hn::Zero(D16()));
   }
-  return {hn::IfThenElseZero(one_surface, to_a + to_b),
-          hn::IfThenElseZero(one_surface, hn::Abs(to_a - to_b))};
+  return {one_surface, to_a + to_b, to_a - to_b};
 }
 
 /// The largest of all pairs; `far` is of those at twice the offsets.
@@ -153,9 +170,10 @@ HWY_INLINE Bend bend_of(std::int16_t const* at, V16 c, ConcavityPairs const& pai
       return heights_of<kInvalidIsFar>(c, load(at + reach), load(at - reach), limit);
     };
     PairHeights const near = heights(offset);
-    bend.near = hn::Max(bend.near, near.concavity);
-    bend.steepness = hn::Max(bend.steepness, near.steepness);
-    bend.far = hn::Max(bend.far, heights(2 * offset).concavity);
+    bend.near = max_where(near.counts, bend.near, near.concavity);
+    bend.steepness = max_where(near.counts, bend.steepness, hn::Abs(near.rise));
+    PairHeights const far = heights(2 * offset);
+    bend.far = max_where(far.counts, bend.far, far.concavity);
   }
   return bend;
 }
@@ -254,32 +272,6 @@ void flood_row_lanes(std::uint8_t const* worth, std::int16_t const* disparity,
     V16 const links = hn::Or(bit_where_linked(disparity + u + 1, kLinkedRight),
                              bit_where_linked(disparity + u + stride, kLinkedDown));
     hn::StoreU(hn::DemoteTo(bytes, hn::Or(hn::IfThenElseZero(open, cost), links)), bytes, out + u);
-  }
-}
-
-template <class D>
-HWY_INLINE std::uint64_t bits_of(D d, hn::Mask<D> mask) {
-  alignas(8) std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < 8; ++i) {
-    bits |= std::uint64_t{bytes[i]} << (8 * i);
-  }
-  // Fewer lanes than bits in a byte leave the rest open.
-  return hn::Lanes(d) < 8 ? bits & ((std::uint64_t{1} << hn::Lanes(d)) - 1) : bits;
-}
-
-/// What `mask_at` tells of the pixels of a row, 64 a word.
-template <class D, class MaskAt>
-HWY_INLINE void store_bits(D d, std::size_t count, MaskAt const& mask_at, std::uint64_t* out) {
-  constexpr std::size_t kWord = 64;
-  for (std::size_t begin = 0; begin < count; begin += kWord) {
-    std::uint64_t bits = 0;
-    for (std::size_t u = 0; u < kWord; u += hn::Lanes(d)) {
-      bits |= bits_of(d, mask_at(begin + u)) << u;
-    }
-    std::size_t const left = count - begin;
-    out[begin / kWord] = left < kWord ? bits & ((std::uint64_t{1} << left) - 1) : bits;
   }
 }
 
