@@ -140,6 +140,8 @@ credo_msg_StuffItem message_of(StuffSummary const& stuff) {
   put(stuff.max_m, message.max_world_m);
   message.label = message_of(stuff.label);
   put_existence(stuff, message);
+  message.joined_ids =
+      lent_values<decltype(message.joined_ids)>(stuff.joined_ids.data(), stuff.joined_ids.size());
   return message;
 }
 
@@ -186,6 +188,8 @@ StuffSummary stuff_in(credo_msg_StuffItem const& message) {
   stuff.max_m = get(message.max_world_m);
   stuff.label = label_in(message.label);
   get_existence(message, stuff);
+  std::copy_n(message.joined_ids._buffer, message.joined_ids._length,
+              std::back_inserter(stuff.joined_ids));
   return stuff;
 }
 

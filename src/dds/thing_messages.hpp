@@ -16,6 +16,7 @@ namespace credo {
 [[nodiscard]] credo_msg_WallSegment message_of(WallSummary const& wall);
 /// Lends the names: DDS takes them by a pointer to char, though it does not write to them.
 [[nodiscard]] credo_msg_KnownObject message_of(ObjectSummary& object);
+/// Lends the joined ids.
 [[nodiscard]] credo_msg_StuffItem message_of(StuffSummary const& stuff);
 
 // The other way. Throws std::runtime_error for evidence that is none.

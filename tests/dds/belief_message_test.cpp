@@ -43,6 +43,17 @@ TEST(BeliefMessage, EachEvidenceHasItsWord) {
   EXPECT_THROW((void)belief_in(sample), std::runtime_error);
 }
 
+// Several to one, and none to the next.
+TEST(BeliefMessage, TellsWhatBecameOneWithAThing) {
+  BeliefSummary belief = summary_of(belief_of_a_kitchen());
+  belief.stuff.push_back(belief.stuff.front());
+  belief.stuff[0].joined_ids = {3, 5};
+  BeliefMessage const message("a", 1, belief);
+  BeliefSummary const read = belief_in(message.sample());
+  EXPECT_EQ(read.stuff[0].joined_ids, belief.stuff[0].joined_ids);
+  EXPECT_TRUE(read.stuff[1].joined_ids.empty());
+}
+
 // Where its names lie is the message's own matter.
 TEST(BeliefMessage, OutlivesWhatItWasMadeOf) {
   auto belief = std::make_unique<BeliefSummary>();

@@ -109,7 +109,7 @@ credo::BeliefSummary summary_of(credo::msg::Belief const& belief) {
                              label_of(stuff.label()),
                              stuff.log_odds(),
                              account_of(stuff.why()),
-                             {}});
+                             {stuff.joined_ids().begin(), stuff.joined_ids().end()}});
   }
   return summary;
 }
