@@ -57,6 +57,17 @@ FieldList fields(ObjectFusionConfig& config) {
        "",
        "with visibility: what shows so much of itself is found as surely as it ever is; above "
        "never_found_share"},
+      {"never_found_px",
+       &config.never_found_px,
+       {1, 1e7},
+       "pixels",
+       "with visibility: what covers no more pixels with what it shows no detector finds"},
+      {"surely_found_px",
+       &config.surely_found_px,
+       {1, 1e7},
+       "pixels",
+       "with visibility: what covers so many is found as surely as it ever is; above "
+       "never_found_px"},
   };
 }
 

@@ -80,6 +80,11 @@ double share_told(PointCounts const& counts) {
   return static_cast<double>(told) / std::max(1, total(counts));
 }
 
+/// From 0 at `from` and below it to 1 at `to`.
+double rise(double value, double from, double to) {
+  return value > from ? std::min(1.0, (value - from) / std::max(to - from, 1e-9)) : 0.0;
+}
+
 /// How much likelier it is at this pose that nobody finds the object, and that the depths are as
 /// they are, than if it were not there. That one sees through it and that a detector misses it are
 /// not independent: the stronger counts. What fits the depths speaks for a detector that erred, but
@@ -95,14 +100,15 @@ double missed_ratio(double found, std::optional<Finding> const& finding) {
 
 }  // namespace
 
-double found_if_visible(double visible_share, double seen_if_present,
+double found_if_visible(double visible_share, double shown_px, double seen_if_present,
                         ObjectFusionConfig const& config) {
-  if (visible_share <= config.never_found_share) {
+  if (!(shown_px > 0.0)) {
     return 0.0;
   }
-  double const rise = (visible_share - config.never_found_share) /
-                      std::max(config.surely_found_share - config.never_found_share, 1e-9);
-  return seen_if_present * std::min(1.0, rise);
+  return seen_if_present *
+         rise(visible_share, config.never_found_share, config.surely_found_share) *
+         rise(std::log(shown_px), std::log(config.never_found_px),
+              std::log(config.surely_found_px));
 }
 
 ObjectLooks::ObjectLooks(Sight const& sight, Se3 const& T_world_camera, FusionConfig const& config)
@@ -117,10 +123,11 @@ ObjectLook ObjectLooks::look_at(PoseDistribution const& pose_world, KnownSurface
   double missed = 0.0;
   Eigen::Array<double, 5, 1> points = Eigen::Array<double, 5, 1>::Zero();
   for (Se3 const& pose : poses) {
-    PointCounts const seen = look_from(pose, surface);
+    auto const [seen, shown_px] = look_from(pose, surface);
     double const visible = share_told(seen);
-    double const found = found_if_visible(visible, seen_if_present_, objects_);
+    double const found = found_if_visible(visible, shown_px, seen_if_present_, objects_);
     look.visible_share += visible;
+    look.shown_px += shown_px;
     look.found_if_there += found;
     missed += missed_ratio(found, finding_of(seen, total(seen), false));
     for (Eigen::Index i = 0; i < points.size(); ++i) {
@@ -129,6 +136,7 @@ ObjectLook ObjectLooks::look_at(PoseDistribution const& pose_world, KnownSurface
   }
   auto const count = static_cast<double>(poses.size());
   look.visible_share /= count;
+  look.shown_px /= count;
   look.found_if_there /= count;
   look.missed_if_there = missed / count;
   for (Eigen::Index i = 0; i < points.size(); ++i) {
@@ -138,7 +146,7 @@ ObjectLook ObjectLooks::look_at(PoseDistribution const& pose_world, KnownSurface
   return look;
 }
 
-PointCounts ObjectLooks::look_from(Se3 const& pose_world, KnownSurface const& surface) {
+ObjectLooks::PoseLook ObjectLooks::look_from(Se3 const& pose_world, KnownSurface const& surface) {
   points_.clear();
   int out_of_view = 0;
   Eigen::Matrix3f const rotation = pose_world.rotation().toRotationMatrix().cast<float>();
@@ -165,11 +173,15 @@ PointCounts ObjectLooks::look_from(Se3 const& pose_world, KnownSurface const& su
   for (std::size_t const block : touched_) {
     rendered_m_[block] = kNone;
   }
+  // Before what is out of view is added, which covers no pixels.
+  double const block_px = view_.sight().block_px;
+  double const shown_px =
+      share_told(counts) * static_cast<double>(touched_.size()) * block_px * block_px;
   // What is out of view faces the camera as often as what is in view.
   double const share =
       points_.empty() ? 1.0 : static_cast<double>(facing) / static_cast<double>(points_.size());
   counts[PointState::kOutOfView] = static_cast<int>(std::lround(share * out_of_view));
-  return counts;
+  return {counts, shown_px};
 }
 
 /// A point stands for the surface around it, as far as the next one.

@@ -17,6 +17,8 @@ struct ObjectLook {
   PointCounts points;
   /// Part of them that is seen, or seen through; mean over the poses.
   double visible_share = 0.0;
+  /// Pixels that the same part covers; mean over the poses.
+  double shown_px = 0.0;
   /// P(a detector finds it | it is there), for what of it is visible.
   double found_if_there = 0.0;
   /// P(no detector finds it and the depths are as they are | it is there), as a multiple of P(the
@@ -40,8 +42,13 @@ private:
     Pixel block;
     float depth_m = 0.0F;
   };
-  /// Of the points that would face the camera if it stood there.
-  [[nodiscard]] PointCounts look_from(Se3 const& pose_world, KnownSurface const& surface);
+  /// Of the points that would face the camera if it stood there, and the pixels that those of them
+  /// cover that are seen or seen through.
+  struct PoseLook {
+    PointCounts points;
+    double shown_px = 0.0;
+  };
+  [[nodiscard]] PoseLook look_from(Se3 const& pose_world, KnownSurface const& surface);
   void render(float spacing_m);
 
   SightView view_;
@@ -54,9 +61,11 @@ private:
   std::vector<std::size_t> touched_;
 };
 
-/// P(a detector finds an object that is there, of which this part is visible): from none at
-/// never_found_share to `seen_if_present` at surely_found_share.
-[[nodiscard]] double found_if_visible(double visible_share, double seen_if_present,
+/// P(a detector finds an object that is there, of which this part is visible and covers so many
+/// pixels): the product of `seen_if_present` and two rises, from 0 at never_found_share to 1 at
+/// surely_found_share, and with the logarithm of pixels from never_found_px to surely_found_px.
+/// None for no pixels.
+[[nodiscard]] double found_if_visible(double visible_share, double shown_px, double seen_if_present,
                                       ObjectFusionConfig const& config);
 
 }  // namespace credo

@@ -44,7 +44,9 @@ int total(PointCounts const& counts) {
 }
 
 TEST(ObjectLooks, OnlyWhatFacesTheCameraIsLookedFor) {
-  ObjectLook const seen = look({.boards = {{kBoard}}}, at(0.1, 1.5, 1e-4));
+  FusionConfig config;
+  config.objects.surely_found_px = 300.0;
+  ObjectLook const seen = look({.boards = {{kBoard}}}, at(0.1, 1.5, 1e-4), config);
   // The front is 400 of the 1600 square centimetres.
   auto const points = static_cast<double>(box().points_model.size());
   EXPECT_NEAR(total(seen.points), points / 4, points / 10);
@@ -141,15 +143,56 @@ TEST(ObjectLooks, FacingIsToldAsFacesTellIt) {
   }
 }
 
-TEST(FoundIfVisible, RisesFromNeverToSurely) {
+// 20 cm at 1.5 m are 20 pixels; blocks at the outline count whole.
+TEST(ObjectLooks, PixelsAreThoseThatTheVisiblePartCovers) {
+  double const whole = look({.boards = {{kBoard}}}, at(0.1, 1.5, 1e-4)).shown_px;
+  EXPECT_GE(whole, 400.0);
+  EXPECT_LT(whole, 600.0);
+  Board const over_half{std::nullopt, -0.5, -0.5, 0.6, 1.0, 1.4};
+  double const half = look({.boards = {{kBoard}, over_half}}, at(0.1, 1.5, 1e-4)).shown_px;
+  EXPECT_NEAR(half / whole, 0.5, 0.1);
+  double const farther = look({}, at(0.1, 2.5, 1e-4)).shown_px;
+  EXPECT_NEAR(farther / whole, 0.36, 0.1);
+}
+
+TEST(ObjectLooks, WhatIsTooFarToBeFoundIsNotMissed) {
+  ObjectLook const near = look({}, at(0.1, 1.5, 1e-4));
+  ObjectLook const far = look({}, at(0.1, 2.8, 1e-4));
+  EXPECT_EQ(far.visible_share, 1.0);
+  EXPECT_GT(near.found_if_there, 0.2);
+  EXPECT_EQ(far.found_if_there, 0.0);
+}
+
+TEST(FoundIfVisible, RisesWithTheVisibleShare) {
   ObjectFusionConfig config;
   config.never_found_share = 0.2;
   config.surely_found_share = 0.6;
-  EXPECT_EQ(found_if_visible(0.0, 0.9, config), 0.0);
-  EXPECT_EQ(found_if_visible(0.2, 0.9, config), 0.0);
-  EXPECT_NEAR(found_if_visible(0.4, 0.9, config), 0.45, 1e-12);
-  EXPECT_NEAR(found_if_visible(0.6, 0.9, config), 0.9, 1e-12);
-  EXPECT_NEAR(found_if_visible(1.0, 0.9, config), 0.9, 1e-12);
+  EXPECT_EQ(found_if_visible(0.0, 1e6, 0.9, config), 0.0);
+  EXPECT_EQ(found_if_visible(0.2, 1e6, 0.9, config), 0.0);
+  EXPECT_NEAR(found_if_visible(0.4, 1e6, 0.9, config), 0.45, 1e-12);
+  EXPECT_NEAR(found_if_visible(0.6, 1e6, 0.9, config), 0.9, 1e-12);
+  EXPECT_NEAR(found_if_visible(1.0, 1e6, 0.9, config), 0.9, 1e-12);
+}
+
+TEST(FoundIfVisible, RisesWithTheLogarithmOfPixels) {
+  ObjectFusionConfig config;
+  config.never_found_px = 100.0;
+  config.surely_found_px = 10000.0;
+  EXPECT_EQ(found_if_visible(1.0, 0.0, 0.9, config), 0.0);
+  EXPECT_EQ(found_if_visible(1.0, 100.0, 0.9, config), 0.0);
+  EXPECT_NEAR(found_if_visible(1.0, 1000.0, 0.9, config), 0.45, 1e-12);
+  EXPECT_NEAR(found_if_visible(1.0, 10000.0, 0.9, config), 0.9, 1e-12);
+  EXPECT_NEAR(found_if_visible(1.0, 1e6, 0.9, config), 0.9, 1e-12);
+  config.surely_found_share = 0.5;
+  EXPECT_NEAR(found_if_visible(0.25, 1000.0, 0.9, config), 0.225, 1e-12) << "both";
+}
+
+// Limits that are one, or the wrong way round, are a step.
+TEST(FoundIfVisible, MayBeAStep) {
+  ObjectFusionConfig config;
+  config.never_found_px = config.surely_found_px = 500.0;
+  EXPECT_EQ(found_if_visible(1.0, 500.0, 0.9, config), 0.0);
+  EXPECT_NEAR(found_if_visible(1.0, 501.0, 0.9, config), 0.9, 1e-12);
 }
 
 }  // namespace
