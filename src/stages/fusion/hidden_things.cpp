@@ -12,6 +12,8 @@ namespace {
 // Of what is measured of the thing so much is hidden, and so many points.
 constexpr double kMostlyHidden = 0.6;
 constexpr int kLeastHidden = 8;
+// A thing hides no more of itself.
+constexpr double kMostHiddenByItself = 0.1;
 // So much of the cluster touches it, which is not much smaller.
 constexpr double kLeastTouching = 0.25;
 constexpr float kMostOfSize = 1.2F;
@@ -23,6 +25,13 @@ bool is_hidden(StuffBelief const& item, StuffLook const& look) {
       hidden + look.counts[PointState::kAgrees] + look.counts[PointState::kSeenThrough];
   return hidden >= kLeastHidden && hidden > kMostlyHidden * measured && item.log_odds > 0.0 &&
          !is_on_its_way(item);
+}
+
+/// Whether the cluster is what hides it, or a part of that.
+bool is_hidden_by(LabelCode label, StuffLook const& look) {
+  auto const share = std::ranges::find(look.shares, label, &ClusterShare::label);
+  return share != look.shares.end() &&
+         share->hidden > kMostHiddenByItself * look.counts[PointState::kOccluded];
 }
 
 Eigen::AlignedBox3f bounds_of(SeenCluster const& seen) {
@@ -65,6 +74,7 @@ std::map<std::size_t, LabelCode> what_comes_out(std::vector<StuffBelief> const& 
   std::map<std::size_t, double> shares;
   for (std::size_t const c : free) {
     SeenCluster const& seen = clusters[c];
+    auto const label = static_cast<LabelCode>(kFirstStuff + c);
     Eigen::AlignedBox3f const bounds = bounds_of(seen);
     double const tolerance_m =
         surface_tolerance_m(static_cast<double>(view.in_camera(bounds.center()).squaredNorm()));
@@ -72,7 +82,7 @@ std::map<std::size_t, LabelCode> what_comes_out(std::vector<StuffBelief> const& 
     std::size_t best = looks.size();
     double most = kLeastTouching;
     for (std::size_t i = 0; i < looks.size(); ++i) {
-      if (shows[i] || !is_hidden(stuff[i], looks[i])) {
+      if (shows[i] || !is_hidden(stuff[i], looks[i]) || is_hidden_by(label, looks[i])) {
         continue;
       }
       Eigen::AlignedBox3f const& known = stuff[i].latest().bounds_world;
@@ -90,7 +100,7 @@ std::map<std::size_t, LabelCode> what_comes_out(std::vector<StuffBelief> const& 
     }
     if (best < looks.size() && most > shares[best]) {
       shares[best] = most;
-      parts[best] = static_cast<LabelCode>(kFirstStuff + c);
+      parts[best] = label;
     }
   }
   return parts;

@@ -15,8 +15,8 @@ namespace credo {
 
 /// The clusters that are another part of a thing, which comes out from behind what hides it: they
 /// touch what is known of the thing and is hidden, and are not much larger; the thing shows in no
-/// cluster, is hidden for the most part, and is not on its way. By the thing's place in the belief;
-/// one each, that of which most touches it.
+/// cluster, is hidden for the most part, by something else, and is not on its way. By the thing's
+/// place in the belief; one each, that of which most touches it.
 ///
 /// `free`: clusters that are nothing known, by their place among `clusters`. `shows`: of each thing
 /// whether a cluster is taken for it. Looks are at `stuff`, in its order.
