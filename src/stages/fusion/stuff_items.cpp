@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -12,7 +13,9 @@
 
 #include "stages/fusion/cluster_owners.hpp"
 #include "stages/fusion/existence.hpp"
+#include "stages/fusion/hidden_things.hpp"
 #include "stages/fusion/joined_names.hpp"
+#include "stages/fusion/shown_in.hpp"
 #include "stages/fusion/shown_planes.hpp"
 #include "stages/fusion/stuff_findings.hpp"
 #include "stages/fusion/stuff_learning.hpp"
@@ -27,7 +30,6 @@ namespace {
 // How much of a look is news that takes for something known what one look showed by itself.
 constexpr double kOneToOne = 0.7;
 // Merging.
-constexpr double kShareInAnother = 0.6;
 constexpr double kLeastShown = 0.32;
 // A cluster that things explain by so much is none of its own.
 constexpr double kExplained = 0.7;
@@ -57,6 +59,7 @@ public:
 
   FusedStuff run() && {
     release_walkers();
+    find_hidden();
     for (std::size_t i = 0; i < known_.stuff.size(); ++i) {
       update(i);
     }
@@ -111,6 +114,23 @@ private:
     }
   }
 
+  /// What comes out from behind what hides a thing is taken for it.
+  void find_hidden() {
+    std::vector<bool> shows(look_count(), false);
+    std::vector<std::size_t> free;
+    for (std::size_t c = 0; c < clusters_.size(); ++c) {
+      if (auto const owner = owners_.owner(static_cast<LabelCode>(kFirstStuff + c))) {
+        shows[*owner] = true;
+      } else if (is_unexplained(c) && !has_arrived(clusters_[c])) {
+        free.push_back(c);
+      }
+    }
+    came_out_ = what_comes_out(known_.stuff, looks_.looks(), clusters_, free, shows, view_);
+    for (auto const& [item, label] : came_out_) {
+      owners_.give(label, item);
+    }
+  }
+
   void update(std::size_t i) {
     StuffBelief& item = known_.stuff[i];
     StuffLook const& seen = look(i);
@@ -129,13 +149,17 @@ private:
         }
       }
     }
+    if (auto const part = came_out_.find(i); labels.empty() && part != came_out_.end()) {
+      labels.push_back(part->second);
+      item.label = part->second;
+    }
     bool const matched = !labels.empty();
     std::optional<Finding> finding = finding_of(seen.counts, item.most_agreeing, matched);
     item.evidence = evidence_of(seen.counts, finding);
     if (finding && finding->verdict == Verdict::kSeen && !matched && shows_known(i)) {
       // What is there is floor, wall or known object, and no thing of its own.
       finding->verdict = Verdict::kGone;
-      finding->stands = !shows_found_object(i);
+      finding->stands = !shows_found_object(seen, segmentation_.sight.labels, places_);
       item.evidence = Evidence::kNotSeen;
     }
     item.why = account_of(seen.counts, item.most_agreeing);
@@ -234,7 +258,8 @@ private:
         if (shows_enough(j) && shows_as_known(item, news_[j]) && item.log_odds < 0.0) {
           forget(item);
         }
-      } else if (std::optional<std::size_t> const host = host_of(j)) {
+      } else if (std::optional<std::size_t> const host =
+                     host_of(j, known_.stuff, looks_.looks(), owners_, released_)) {
         if (shows_enough(j) && are_one(j, *host)) {
           join(*host, j);
         }
@@ -262,58 +287,11 @@ private:
     item.names_kept.clear();
   }
 
-  [[nodiscard]] bool mostly_in(std::size_t j, int blocks) const {
-    return look(j).blocks >= least_told(known_.stuff[j].most_agreeing) &&
-           blocks > kShareInAnother * look(j).blocks;
-  }
-
   [[nodiscard]] bool shows_known(std::size_t j) const {
-    auto const share = std::ranges::find(look(j).shares, kFloor, &ClusterShare::label);
-    return share != look(j).shares.end() && mostly_in(j, share->blocks) &&
-           planes_.are_what_shows(look(j));
-  }
-
-  /// Whether what shows is, for the most part, a known object that the frame before did not show.
-  /// That is found since, and no other name for what was in sight already.
-  [[nodiscard]] bool shows_found_object(std::size_t j) const {
-    int found = 0;
-    int agreeing = 0;
-    for (PointLook const& point : look(j).points) {
-      if (point.state == PointState::kAgrees) {
-        LabelCode const label = segmentation_.sight.labels[static_cast<std::size_t>(point.block)];
-        ++agreeing;
-        found += is_object(label) && !places_.has_shown(label) ? 1 : 0;
-      }
-    }
-    return 2 * found > agreeing;
+    return credo::shows_known(known_.stuff[j], look(j), planes_);
   }
 
   [[nodiscard]] std::size_t look_count() const { return looks_.looks().size(); }
-
-  /// The thing whose clusters show most of this one.
-  [[nodiscard]] std::optional<std::size_t> host_of(std::size_t j) {
-    std::vector<std::pair<std::size_t, int>> blocks_in;
-    for (ClusterShare const& share : look(j).shares) {
-      std::optional<std::size_t> const host =
-          is_stuff(share.label) && !released_.contains(share.label) ? owners_.owner(share.label)
-                                                                    : std::nullopt;
-      if (!host) {
-        continue;
-      }
-      auto const found = std::ranges::find(blocks_in, *host, &std::pair<std::size_t, int>::first);
-      if (found == blocks_in.end()) {
-        blocks_in.emplace_back(*host, share.blocks);
-      } else {
-        found->second += share.blocks;
-      }
-    }
-    for (auto const& [host, blocks] : blocks_in) {
-      if (host != j && mostly_in(j, blocks) && known_.stuff[host].model != nullptr) {
-        return host;
-      }
-    }
-    return std::nullopt;
-  }
 
   /// The one that is better known of what shows now keeps its name.
   void join(std::size_t a, std::size_t b) {
@@ -383,6 +361,8 @@ private:
   std::vector<std::shared_ptr<StuffModel const>> models_before_;
   std::vector<FoundThing> found_;
   std::vector<Part> parts_;
+  /// What comes out from behind what hides a thing.
+  std::map<std::size_t, LabelCode> came_out_;
 };
 
 }  // namespace
