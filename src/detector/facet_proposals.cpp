@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace credo {
 namespace {
@@ -72,11 +73,27 @@ void add_poses(Facet const& model, Facet const& scene, int quarters,
   }
 }
 
+/// Of each segment's pixels those that are explained; empty where nothing is.
+std::vector<int> explained_of_segments(SearchScene const& scene, ClaimedPixels const& explained) {
+  std::vector<int> explained_px(explained.empty() ? 0 : scene.segments.size() + 1, 0);
+  for (std::size_t i = 0; i < explained.size(); ++i) {
+    explained_px[scene.pixels[i].segment] += explained[i] != 0 ? 1 : 0;
+  }
+  return explained_px;
+}
+
 }  // namespace
 
-std::vector<Proposal> propose_by_facets(SearchModel const& model, SearchScene const& scene) {
+std::vector<Proposal> propose_by_facets(SearchModel const& model, SearchScene const& scene,
+                                        ClaimedPixels const& explained) {
+  std::vector<int> const explained_px = explained_of_segments(scene, explained);
   std::vector<Proposal> proposals;
   for (Facet const& of_scene : scene.facets) {
+    std::size_t const segment = of_scene.segment;
+    if (!explained_px.empty() && segment > 0 &&
+        2 * explained_px[segment] > scene.segments[segment - 1].pixels) {
+      continue;
+    }
     for (Facet const& of_model : model.facets) {
       for (int quarters = 0; quarters < 4; ++quarters) {
         add_poses(of_model, of_scene, quarters, proposals);

@@ -164,7 +164,7 @@ bool is_in_place_of_another(PoseCandidate const& candidate, ClaimedPixels const&
 std::vector<PoseCandidate> search(SearchModel const& model, std::vector<Proposal> const& proposals,
                                   SearchScene const& scene, ClaimedPixels const& explained,
                                   std::size_t share, std::size_t max_candidates) {
-  PoseScore const score(model, scene);
+  PoseScore const score(model, scene, explained);
   PoseDistance const distance(model);
   std::mt19937_64 random(kDrawSeed);
   std::vector<Scored> poses;
@@ -220,7 +220,7 @@ std::vector<PoseCandidate> search(SearchModel const& model, std::vector<Proposal
 std::vector<Proposal> propose_everywhere(SearchModel const& model, PairTable const& pairs,
                                          SearchScene const& scene, ClaimedPixels const& explained) {
   std::vector<Proposal> proposals = propose_by_pairs(model, pairs, scene, explained);
-  std::ranges::move(propose_by_facets(model, scene), std::back_inserter(proposals));
+  std::ranges::move(propose_by_facets(model, scene, explained), std::back_inserter(proposals));
   return proposals;
 }
 

@@ -12,18 +12,18 @@ namespace credo {
 
 /// Where a model may be in a scene, likeliest first; at most `max_candidates`, none of which are
 /// nearly the same (with the model's symmetry). Wherever the camera is: nothing is expected. What
-/// is `explained` by other objects (empty, or as large as the image) proposes no poses, and is no
-/// more than half of what a pose explains.
+/// is `explained` by other objects (empty, or as large as the image) proposes no poses, speaks
+/// against those that lie on it, and is no more than half of what a pose explains.
 [[nodiscard]] std::vector<PoseCandidate> search_everywhere(SearchModel const& model,
                                                            PairTable const& pairs,
                                                            SearchScene const& scene,
                                                            std::size_t max_candidates,
                                                            ClaimedPixels const& explained = {});
 
-/// A second look, with half the effort, for what a search everywhere did not find: where other
-/// objects are known by now, their points propose no poses any more, which crowded out the right
-/// one. All of what was found before, and at most `max_candidates` more that are nearly none of it;
-/// likeliest first.
+/// A second look, with half the survivors, for what a search everywhere did not find: where other
+/// objects are known by now, neither they nor poses that lie on them crowd out the right one any
+/// more. All of what was found before, and at most `max_candidates` more that are nearly none of
+/// it; likeliest first.
 [[nodiscard]] std::vector<PoseCandidate> search_again(SearchModel const& model,
                                                       PairTable const& pairs,
                                                       SearchScene const& scene,

@@ -18,6 +18,8 @@ constexpr int kLeastSegment_px = 60;
 constexpr std::size_t kKeysPerReference = 8;
 constexpr std::size_t kFewestReferences = 8;
 constexpr std::size_t kMostReferences = 24;
+/// Where other objects are known there is less to look at, and it was missed before.
+constexpr std::size_t kMoreBesideKnown = 2;
 constexpr std::size_t kMostPeaks = 6;
 constexpr float kLeastPeak = 0.5F;
 /// Pairs that are longer seldom show both ends, and cost most.
@@ -184,9 +186,9 @@ CameraPose pose_of(NormalFrame const& scene_frame, NormalFrame const& model_fram
   return pose;
 }
 
-/// Of each segment that fits, some of its keys, evenly.
+/// Of each segment that fits, some of its keys, evenly; `more` times as many as usual.
 std::vector<std::uint32_t> references_of(std::vector<Key> const& keys, SearchScene const& scene,
-                                         SearchModel const& model) {
+                                         SearchModel const& model, std::size_t more) {
   std::vector<std::vector<std::uint32_t>> of_segment(scene.segments.size());
   for (std::size_t i = 0; i < keys.size(); ++i) {
     of_segment[keys[i].segment - 1U].push_back(static_cast<std::uint32_t>(i));
@@ -197,8 +199,9 @@ std::vector<std::uint32_t> references_of(std::vector<Key> const& keys, SearchSce
     if (!fits(scene.segments[s], model)) {
       continue;
     }
-    std::size_t const count = std::min(
-        own.size(), std::clamp(own.size() / kKeysPerReference, kFewestReferences, kMostReferences));
+    std::size_t const usual =
+        std::clamp(own.size() / kKeysPerReference, kFewestReferences, kMostReferences);
+    std::size_t const count = std::min(own.size(), more * usual);
     for (std::size_t i = 0; i < count; ++i) {
       references.push_back(own[(2 * i + 1) * own.size() / (2 * count)]);
     }
@@ -214,7 +217,10 @@ std::vector<Proposal> propose_by_pairs(SearchModel const& model, PairTable const
   KeyCells const cells(keys, kReach_diameters * model.diameter_m);
   Votes votes(pairs.references().size());
   std::vector<Proposal> proposals;
-  for (std::uint32_t const reference : references_of(keys, scene, model)) {
+  bool const something_known =
+      std::ranges::any_of(explained, [](std::uint8_t known) { return known != 0; });
+  std::size_t const more = something_known ? kMoreBesideKnown : 1;
+  for (std::uint32_t const reference : references_of(keys, scene, model, more)) {
     Key const& from = keys[reference];
     NormalFrame const frame(from.point, from.normal);
     votes.clear();

@@ -35,6 +35,12 @@ PoseScore::PoseScore(SearchModel const& model, SearchScene const& scene)
   }
 }
 
+PoseScore::PoseScore(SearchModel const& model, SearchScene const& scene,
+                     ClaimedPixels const& explained)
+    : PoseScore(model, scene) {
+  explained_ = explained.empty() ? nullptr : &explained;
+}
+
 float PoseScore::operator()(CameraPose const& pose, std::size_t points) const {
   ModelView const* view = view_of(pose);
   return view != nullptr ? fit(*view, pose, points) - outline_loss(*view, pose) : kWorst;
@@ -61,7 +67,8 @@ float PoseScore::fit(ModelView const& view, CameraPose const& pose, std::size_t 
   for (std::size_t k = 0; k < count; ++k) {
     std::uint16_t const i = view.visible[k];
     Eigen::Vector3f const p = pose * model_.points_model[i];
-    ScenePixel const* pixel = project(p);
+    Pixel at;
+    ScenePixel const* pixel = project.at(p, at) ? &scene_.pixels[at] : nullptr;
     if (pixel == nullptr || pixel->depth_m <= 0.0F) {
       sum.occluded += 0.5F;
       continue;
@@ -73,6 +80,9 @@ float PoseScore::fit(ModelView const& view, CameraPose const& pose, std::size_t 
       sum.violated += d_m < 2.0F * tau_m ? 0.5F : 1.0F;
     } else if (d_m < -tau_m) {
       (on_background ? sum.violated : sum.occluded) += 1.0F;
+    } else if (is_explained(at)) {
+      // Another thing is there: not even its surface may be shared.
+      sum.violated += 1.0F;
     } else if (on_background) {
       sum.occluded += 0.5F;
       sum.violated += 0.2F;

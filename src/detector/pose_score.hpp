@@ -7,6 +7,7 @@
 #include "detector/camera_pose.hpp"
 #include "detector/search_model.hpp"
 #include "detector/search_scene.hpp"
+#include "detector/verification.hpp"
 
 namespace credo {
 
@@ -14,6 +15,10 @@ namespace credo {
 class PoseScore {
 public:
   PoseScore(SearchModel const& model, SearchScene const& scene);
+  /// Beside other objects, which must outlive the score as well: a surface that they explain
+  /// (`explained` is empty, or as large as the image) speaks against a pose that lies on it as much
+  /// as one that is seen through.
+  PoseScore(SearchModel const& model, SearchScene const& scene, ClaimedPixels const& explained);
 
   /// Of the first `points` that the nearest view shows: those whose depth and normal agree, less
   /// those that the scene is seen through, over those that are not hidden; less what of the
@@ -30,6 +35,9 @@ private:
   [[nodiscard]] bool background(ScenePixel const& pixel) const {
     return pixel.plane != kNoPlane && large_plane_[pixel.plane];
   }
+  [[nodiscard]] bool is_explained(Pixel pixel) const {
+    return explained_ != nullptr && (*explained_)[pixel] != 0;
+  }
   /// The view of a pose; null where it is not before the camera, or shows nothing.
   [[nodiscard]] ModelView const* view_of(CameraPose const& pose) const;
   [[nodiscard]] float fit(ModelView const& view, CameraPose const& pose, std::size_t points) const;
@@ -37,6 +45,8 @@ private:
 
   SearchModel const& model_;
   SearchScene const& scene_;
+  /// None where nothing is.
+  ClaimedPixels const* explained_ = nullptr;
   /// By position in SearchScene::planes.
   std::vector<bool> large_plane_;
 };

@@ -185,6 +185,22 @@ TEST(FacetProposals, NothingIsLaidOnWhatIsLarger) {
   EXPECT_TRUE(propose_by_facets(SearchModel{}, scene_with(0.20F, 0.10F)).empty());
 }
 
+TEST(FacetProposals, NothingIsLaidOnWhatIsExplained) {
+  SearchModel const model = model_with(0.20F, 0.10F);
+  SearchScene scene = scene_with(0.20F, 0.10F);
+  scene.pixels = Grid<ScenePixel>(10, 10, ScenePixel{});
+  scene.segments.resize(7);
+  scene.segments[6].pixels = 20;
+  ClaimedPixels explained(10, 10, 0);
+  for (std::size_t i = 0; i < 20; ++i) {
+    scene.pixels[i].segment = 7;
+    explained[i] = i < 10 ? 1 : 0;
+  }
+  EXPECT_EQ(propose_by_facets(model, scene, explained).size(), 2U) << "half of it is open";
+  explained[10] = 1;
+  EXPECT_TRUE(propose_by_facets(model, scene, explained).empty());
+}
+
 /// A crate on the desk, one corner towards the camera.
 class CrateFromACorner : public ::testing::Test {
 protected:

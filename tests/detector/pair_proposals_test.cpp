@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <vector>
@@ -104,6 +105,9 @@ TEST(PairProposals, WhatIsExplainedProposesNothing) {
   }
   auto const rest = propose_by_pairs(prepared_bracket(), bracket_pairs(), scene, explained);
   EXPECT_TRUE(std::ranges::none_of(rest, [&](Proposal const& p) { return p.segment == segment; }));
+  auto const of_others =
+      std::ranges::count_if(all, [&](Proposal const& p) { return p.segment != segment; });
+  EXPECT_GT(static_cast<std::ptrdiff_t>(rest.size()), of_others) << "the others propose more";
   explained = ClaimedPixels(scene.pixels.width(), scene.pixels.height(), 0);
   EXPECT_EQ(propose_by_pairs(prepared_bracket(), bracket_pairs(), scene, explained).size(),
             all.size());

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -83,6 +84,33 @@ TEST(PoseScore, WhatTheSceneIsSeenThroughIsWorseThanWhatIsHidden) {
   float const hidden = PoseScore(prepared_bracket(), wall)(view.truth, 400);
   EXPECT_LT(score(before, 400), hidden);
   EXPECT_LT(hidden, score(view.truth, 400));
+}
+
+// Among thousands of rough proposals the right one for a thing that is not found yet came after
+// those that lie on what is known.
+TEST(PoseScore, WhatOthersExplainComesAfterWhatIsRoughlyRight) {
+  std::vector<Placed> things = desk_and_floor();
+  std::vector<CameraPose> truths;
+  for (double const x_m : {-0.15, 0.15}) {
+    Se3 const T_world_bracket = placed_at({x_m, 0, 0}, 0.3);
+    things.push_back({bracket(), T_world_bracket});
+    truths.push_back(camera_pose(before_desk().inverse() * T_world_bracket));
+  }
+  SearchScene const scene = scene_of(*frame_of(things, before_desk()));
+  SearchModel const& model = prepared_bracket();
+  ClaimedPixels explained(scene.pixels.width(), scene.pixels.height(), 0);
+  for (std::uint32_t const pixel : verified(model, scene, truths[0], {}).explained_px) {
+    explained[pixel] = 1;
+  }
+  CameraPose const rough = perturbed(model, truths[1], {0.02F, 0, 0}, Vector3f::Zero());
+  PoseScore const alone(model, scene);
+  PoseScore const beside(model, scene, explained);
+  EXPECT_GT(alone.rough(truths[0], 40), alone.rough(rough, 40));
+  EXPECT_LT(beside.rough(truths[0], 40), beside.rough(rough, 40));
+  EXPECT_LT(beside(truths[0], 400), 0.0F);
+  // Elsewhere, and where nothing is explained, all is as before.
+  EXPECT_EQ(beside(truths[1], 400), alone(truths[1], 400));
+  EXPECT_EQ(PoseScore(model, scene, {})(truths[0], 400), alone(truths[0], 400));
 }
 
 // A piece of a large flat surface looks like one side of a box; its silhouette does not.

@@ -60,7 +60,8 @@ std::vector<Proposal> ProposalDetector::proposals_of(std::string const& type,
     proposals = propose_by_pairs(model.model, model.pairs, scene, explained);
   }
   if (proposers_.facets) {
-    std::ranges::move(propose_by_facets(model.model, scene), std::back_inserter(proposals));
+    std::ranges::move(propose_by_facets(model.model, scene, explained),
+                      std::back_inserter(proposals));
   }
   if (proposers_.fpfh) {
     std::ranges::move(
