@@ -126,6 +126,17 @@ struct Birth {
   bool is_there = false;
 };
 
+/// A known object in a frame that shows it.
+struct Chance {
+  FrameIndex frame{0};
+  std::string object_id;
+  /// Of its surface that faces the camera, as the belief sees it.
+  double visible_share = 0.0;
+  /// That truly show it.
+  std::uint64_t shown_px = 0;
+  bool is_found = false;
+};
+
 /// Of the camera's poses.
 struct CameraScores {
   /// Mean errors.
@@ -150,6 +161,7 @@ struct Scores {
   ChangeScores change;
   std::optional<StuffScores> stuff;
   std::vector<Birth> births;
+  std::vector<Chance> chances;
 };
 
 }  // namespace credo

@@ -110,6 +110,7 @@ void Evaluation::add_images(EvalFrame const& frame,
   LabelOverlap const overlap(*frame.labels, *frame.true_labels);
   bodies_.update(*frame.belief, frame.truth, overlap);
   births_.add(*frame.belief, *frame.labels, bodies_, frame.truth, *told_);
+  chances_.add(*frame.belief, frame.truth, match, models_, overlap);
   add_segments(frame, overlap);
   identity_.add(*frame.belief, overlap,
                 bodies_to_follow(frame.truth, *told_, overlap, frame.labels->size()));
@@ -166,6 +167,7 @@ Scores Evaluation::scores() const {
   if (has_labels_) {
     scores.stuff = identity_.scores();
     scores.births = births_.births();
+    scores.chances = chances_.chances();
   }
   return scores;
 }

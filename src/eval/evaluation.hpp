@@ -14,6 +14,7 @@
 #include "core/truth.hpp"
 #include "eval/birth_scorer.hpp"
 #include "eval/camera_scorer.hpp"
+#include "eval/chance_scorer.hpp"
 #include "eval/change_scorer.hpp"
 #include "eval/existence_scorer.hpp"
 #include "eval/identity_scorer.hpp"
@@ -94,6 +95,7 @@ private:
   ChangeScorer change_;
   IdentityScorer identity_;
   BirthScorer births_;
+  ChanceScorer chances_;
   bool has_labels_ = false;
   std::vector<FrameScores> trace_;
 };

@@ -103,6 +103,14 @@ std::string scores_json(Scores const& scores) {
                               {"thickness_blocks", birth.thickness_blocks},
                               {"is_there", birth.is_there}});
   }
+  json["chances"] = Json::array();
+  for (Chance const& chance : scores.chances) {
+    json["chances"].push_back({{"frame", number(chance.frame)},
+                               {"id", chance.object_id},
+                               {"visible_share", chance.visible_share},
+                               {"shown_px", chance.shown_px},
+                               {"is_found", chance.is_found}});
+  }
   return json.dump(2);
 }
 
