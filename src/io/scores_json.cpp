@@ -47,6 +47,55 @@ Json json_of(std::optional<CameraScores> const& scores) {
                 : Json{{"translation_m", nullptr}, {"rotation_deg", nullptr}, {"ate_m", nullptr}};
 }
 
+Json json_of(PoseClaim const& claim) {
+  return {{"frame", number(claim.frame)},
+          {"id", claim.object_id},
+          {"squared_error", claim.squared_error},
+          {"degrees_of_freedom", claim.degrees_of_freedom}};
+}
+
+Json json_of(Birth const& birth) {
+  return {{"frame", number(birth.frame)},
+          {"id", birth.stuff_id},
+          {"thickness_blocks", birth.thickness_blocks},
+          {"is_there", birth.is_there}};
+}
+
+Json json_of(Chance const& chance) {
+  return {{"frame", number(chance.frame)},
+          {"id", chance.object_id},
+          {"visible_share", chance.visible_share},
+          {"shown_px", chance.shown_px},
+          {"is_found", chance.is_found}};
+}
+
+/// Of each claim, birth and chance.
+template <typename Value>
+Json array_of(std::vector<Value> const& values) {
+  Json array = Json::array();
+  for (Value const& value : values) {
+    array.push_back(json_of(value));
+  }
+  return array;
+}
+
+Json json_of(ObjectScores const& objects) {
+  return {{"translation_m", json_of(objects.translation_m)},
+          {"rotation_deg", json_of(objects.rotation_deg)},
+          {"adds_recall", json_of(objects.adds_recall)},
+          {"nees", json_of(objects.nees)},
+          {"nees_expected", json_of(objects.nees_expected)},
+          {"nees_low", json_of(objects.nees_low)},
+          {"nees_high", json_of(objects.nees_high)},
+          {"nees_inside", json_of(objects.nees_inside())},
+          {"nees_repeated_low", json_of(objects.nees_repeated_low)},
+          {"nees_repeated_high", json_of(objects.nees_repeated_high)},
+          {"nees_claims", json_of(objects.nees_claims)},
+          {"precision", json_of(objects.precision)},
+          {"recall", json_of(objects.recall)},
+          {"claims", array_of(objects.claims)}};
+}
+
 }  // namespace
 
 std::string scores_json(Scores const& scores) {
@@ -61,27 +110,7 @@ std::string scores_json(Scores const& scores) {
   json["walls"] = {{"precision", json_of(scores.walls.precision)},
                    {"recall", json_of(scores.walls.recall)},
                    {"endpoint_m", json_of(scores.walls.endpoint_m)}};
-  ObjectScores const& objects = scores.objects;
-  json["objects"] = {{"translation_m", json_of(objects.translation_m)},
-                     {"rotation_deg", json_of(objects.rotation_deg)},
-                     {"adds_recall", json_of(objects.adds_recall)},
-                     {"nees", json_of(objects.nees)},
-                     {"nees_expected", json_of(objects.nees_expected)},
-                     {"nees_low", json_of(objects.nees_low)},
-                     {"nees_high", json_of(objects.nees_high)},
-                     {"nees_inside", json_of(objects.nees_inside())},
-                     {"nees_repeated_low", json_of(objects.nees_repeated_low)},
-                     {"nees_repeated_high", json_of(objects.nees_repeated_high)},
-                     {"nees_claims", json_of(objects.nees_claims)},
-                     {"precision", json_of(objects.precision)},
-                     {"recall", json_of(objects.recall)}};
-  json["objects"]["claims"] = Json::array();
-  for (PoseClaim const& claim : objects.claims) {
-    json["objects"]["claims"].push_back({{"frame", number(claim.frame)},
-                                         {"id", claim.object_id},
-                                         {"squared_error", claim.squared_error},
-                                         {"degrees_of_freedom", claim.degrees_of_freedom}});
-  }
+  json["objects"] = json_of(scores.objects);
   json["existence"] = {{"ece", nullptr}, {"brier", nullptr}, {"reliability", nullptr}};
   if (scores.existence) {
     json["existence"] = json_of(*scores.existence);
@@ -96,21 +125,8 @@ std::string scores_json(Scores const& scores) {
                      {"fragmentations", scores.stuff->fragmentations},
                      {"item_frames", scores.stuff->item_frames}};
   }
-  json["births"] = Json::array();
-  for (Birth const& birth : scores.births) {
-    json["births"].push_back({{"frame", number(birth.frame)},
-                              {"id", birth.stuff_id},
-                              {"thickness_blocks", birth.thickness_blocks},
-                              {"is_there", birth.is_there}});
-  }
-  json["chances"] = Json::array();
-  for (Chance const& chance : scores.chances) {
-    json["chances"].push_back({{"frame", number(chance.frame)},
-                               {"id", chance.object_id},
-                               {"visible_share", chance.visible_share},
-                               {"shown_px", chance.shown_px},
-                               {"is_found", chance.is_found}});
-  }
+  json["births"] = array_of(scores.births);
+  json["chances"] = array_of(scores.chances);
   return json.dump(2);
 }
 
