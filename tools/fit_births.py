@@ -13,27 +13,16 @@ Example:
   fit_births.py build/bin/credo out/scores/default out/scores/truth
 """
 import argparse
-import json
 import math
-import pathlib
-import subprocess
 import sys
+
+from scored_runs import brier_and_loss, evaluations
 
 
 def births(program, runs, truth):
     """(scene, log thickness, whether it is there) of every birth."""
-    rows = []
-    for run in sorted(pathlib.Path(runs).iterdir()):
-        of_scene = pathlib.Path(truth) / run.name
-        if not (run / "labels").is_dir() or not (of_scene / "truth.jsonl").is_file():
-            continue
-        ended = subprocess.run([program, "eval", run, "--truth", of_scene, "--json"],
-                               capture_output=True, text=True)
-        if ended.returncode != 0:
-            sys.exit(f"credo eval {run}: {ended.stderr.strip()}")
-        rows += [(run.name, math.log(birth["thickness_blocks"]), birth["is_there"])
-                 for birth in json.loads(ended.stdout)["births"]]
-    return rows
+    return [(scene, math.log(birth["thickness_blocks"]), birth["is_there"])
+            for scene, scores in evaluations(program, runs, truth) for birth in scores["births"]]
 
 
 def probability(fit, log_thickness):
@@ -64,10 +53,7 @@ def fitted(rows, with_thickness=True):
 
 
 def scores(pairs):
-    """Brier score and log loss of (probability, is there)."""
-    n = max(1, len(pairs))
-    brier = sum((p - there) ** 2 for p, there in pairs) / n
-    loss = -sum(math.log(p if there else 1.0 - p) for p, there in pairs) / n
+    brier, loss = brier_and_loss(pairs)
     return f"Brier {brier:.4f}, log loss {loss:.4f} of {len(pairs)}"
 
 
@@ -91,8 +77,7 @@ def main():
     arguments = parser.parse_args()
     rows = births(arguments.credo, arguments.runs, arguments.truth)
     if not rows:
-        sys.exit(f"fit_births.py: {arguments.runs} has no run with labels whose scene is in "
-                 f"{arguments.truth}")
+        sys.exit(f"fit_births.py: nothing new comes up in {arguments.runs}")
     fit = fitted(rows)
     print(f"fusion.births.log_odds={fit[0]:.2f}\nfusion.births.per_log_thickness={fit[1]:.2f}")
     print("scenes left out, one probability for all:", scores(left_out(rows, False)))

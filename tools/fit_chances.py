@@ -18,11 +18,10 @@ Example:
 """
 import argparse
 import itertools
-import json
 import math
-import pathlib
-import subprocess
 import sys
+
+from scored_runs import brier_and_loss, evaluations
 
 # What is there as surely as a detector ever finds it (fusion.existence.seen_if_present).
 MOST = 0.95
@@ -33,18 +32,8 @@ SURELY_PX = [500, 1000, 1500, 2000, 2500, 3000, 4000, 6000]
 
 def chances(program, runs, truth):
     """(visible share, log of the pixels, whether it is found) of every chance."""
-    rows = []
-    for run in sorted(pathlib.Path(runs).iterdir()):
-        of_scene = pathlib.Path(truth) / run.name
-        if not (run / "labels").is_dir() or not (of_scene / "truth.jsonl").is_file():
-            continue
-        ended = subprocess.run([program, "eval", run, "--truth", of_scene, "--json"],
-                               capture_output=True, text=True)
-        if ended.returncode != 0:
-            sys.exit(f"credo eval {run}: {ended.stderr.strip()}")
-        rows += [(chance["visible_share"], math.log(chance["shown_px"]), chance["is_found"])
-                 for chance in json.loads(ended.stdout)["chances"]]
-    return rows
+    return [(chance["visible_share"], math.log(chance["shown_px"]), chance["is_found"])
+            for _, scores in evaluations(program, runs, truth) for chance in scores["chances"]]
 
 
 def rise(value, low, high):
@@ -60,21 +49,18 @@ def probability(limits, share, log_px):
 
 
 def scores(pairs):
-    """Brier score and log loss of (probability, is found)."""
-    n = max(1, len(pairs))
-    brier = sum((p - found) ** 2 for p, found in pairs) / n
-    loss = -sum(math.log(p if found else 1.0 - p) for p, found in pairs) / n
-    return loss, f"Brier {brier:.3f}, log loss {loss:.3f} of {len(pairs)}"
+    brier, loss = brier_and_loss(pairs)
+    return f"Brier {brier:.3f}, log loss {loss:.3f} of {len(pairs)}"
 
 
 def by(limits, rows):
-    return scores([(probability(limits, share, log_px), found) for share, log_px, found in rows])
+    return [(probability(limits, share, log_px), found) for share, log_px, found in rows]
 
 
 def fitted(rows):
     limits = [(a, b, c, d) for a, b in itertools.combinations(SHARES, 2)
               for c in NEVER_PX for d in SURELY_PX]
-    return min(limits, key=lambda some: by(some, rows)[0])
+    return min(limits, key=lambda some: brier_and_loss(by(some, rows))[1])
 
 
 def main():
@@ -91,17 +77,16 @@ def main():
     arguments = parser.parse_args()
     rows = chances(arguments.credo, arguments.runs, arguments.truth)
     if not rows:
-        sys.exit(f"fit_chances.py: {arguments.runs} has no run with labels and known objects whose scene is in "
-                 f"{arguments.truth}")
+        sys.exit(f"fit_chances.py: no frame of {arguments.runs} shows a known object")
     fit = fitted(rows)
     for name, limit in zip(("never_found_share", "surely_found_share", "never_found_px", "surely_found_px"), fit):
         print(f"fusion.objects.{name}={limit:g}")
     mean = sum(found for _, _, found in rows) / len(rows)
     for name, some in [("fitted on", rows)] + \
             [("tested on", chances(arguments.credo, *test)) for test in arguments.test]:
-        print(f"{name}, one probability for all: {scores([(mean, found) for _, _, found in some])[1]}")
-        print(f"{name}, fitted:                  {by(fit, some)[1]}")
-        print(f"{name}, beside:                  {by(arguments.beside, some)[1]}")
+        print(f"{name}, one probability for all: {scores([(mean, found) for _, _, found in some])}")
+        print(f"{name}, fitted:                  {scores(by(fit, some))}")
+        print(f"{name}, beside:                  {scores(by(arguments.beside, some))}")
     edges = [1, 100, 200, 400, 800, 1600, 3200, 6400, math.inf]
     print("pixels: chances, found, fitted")
     for low, high in zip(edges, edges[1:]):
