@@ -63,6 +63,22 @@ TEST(HiddenThings, WhatIsMuchLargerIsAnother) {
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
 }
 
+// A quarter of it and more touches what is hidden.
+TEST(HiddenThings, WhatIsTallerIsAnother) {
+  Room room = room_with_a_thing();
+  room.show({.boards = {kPole}});
+  room.show({.boards = {kPole, {kSecond, -0.03, -0.1, 0.03, 0.4}}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+}
+
+// As near before it as what touches it.
+TEST(HiddenThings, WhatHidesItIsAnother) {
+  Room room = room_with_a_thing();
+  room.show({.boards = {kPole}});
+  room.show({.boards = {{kSecond, -0.02, -0.02, 0.24, 0.24, 1.473}}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+}
+
 TEST(HiddenThings, BesideWhatShowsItIsAnother) {
   Room room = room_with_a_thing();
   room.show({.boards = {kKnown, kOtherSide}});
