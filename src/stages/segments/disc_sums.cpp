@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdlib>
 
 #undef HWY_TARGET_INCLUDE
@@ -18,12 +19,14 @@ HWY_BEFORE_NAMESPACE();
 namespace credo::segments::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using lanes::HWY_NAMESPACE::add_where;
+using lanes::HWY_NAMESPACE::bits_of;
 
 using DiscLanes = hn::CappedTag<std::int32_t, 16>;
 using DiscVec = hn::Vec<DiscLanes>;
 
-/// Of some pixels what DiscSums adds up, in its order; the squares of disparities in two halves.
-enum Term : std::size_t { kN, kU, kV, kD, kUU, kUV, kVV, kUD, kVD, kLowDD, kHighDD, kTerms };
+/// Of some pixels what DiscSums adds up, but for what their number tells; the squares of
+/// disparities in two halves.
+enum Term : std::size_t { kU, kD, kUU, kUV, kUD, kVD, kLowDD, kHighDD, kTerms };
 using Terms = std::array<DiscVec, kTerms>;
 
 HWY_INLINE Terms terms_at(std::int16_t const* disparity, DiscVec u, int row_v) {
@@ -36,13 +39,10 @@ HWY_INLINE Terms terms_at(std::int16_t const* disparity, DiscVec u, int row_v) {
   hn::LoadInterleaved2(half, disparity, of_each, between);
   DiscVec const disparities = hn::PromoteTo(d, of_each);
   DiscVec const dd = disparities * disparities;
-  return {hn::Set(d, 1),
-          u,
-          v,
+  return {u,
           disparities,
           u * u,
           u * v,
-          hn::Set(d, row_v * row_v),
           u * disparities,
           v * disparities,
           hn::And(dd, low),
@@ -55,18 +55,23 @@ HWY_INLINE void add_terms_where(hn::Mask<DiscLanes> where, Terms const& terms, T
   }
 }
 
+/// Where the mask is set: how many pixels, and what that tells of a row of them.
+HWY_INLINE void add_number(hn::Mask<DiscLanes> where, std::int64_t row_v, DiscSums& sums) {
+  std::int64_t const number = std::popcount(bits_of(DiscLanes(), where));
+  sums.n += number;
+  sums.v += row_v * number;
+  sums.vv += row_v * row_v * number;
+}
+
 HWY_INLINE void add_lanes(Terms const& lanes, DiscSums& sums) {
   auto const sum = [&](Term term) HWY_ATTR {
     DiscLanes const d;
     return std::int64_t{hn::GetLane(hn::SumOfLanes(d, lanes[term]))};
   };
-  sums.n += sum(kN);
   sums.u += sum(kU);
-  sums.v += sum(kV);
   sums.d += sum(kD);
   sums.uu += sum(kUU);
   sums.uv += sum(kUV);
-  sums.vv += sum(kVV);
   sums.ud += sum(kUD);
   sums.vd += sum(kVD);
   sums.dd += sum(kLowDD) + (sum(kHighDD) << 16);
@@ -92,8 +97,12 @@ HWY_INLINE void add_rows(DiscCentre const& centre, std::span<DiscRow const> rows
       DiscVec const us = hn::Set(d, u) + columns;
       auto const inside = us < end;
       Terms const terms = terms_at(centre.disparity + at, us, row.v);
-      add_terms_where(hn::And(inside, labels == a), terms, sums_a);
-      add_terms_where(hn::And(inside, labels == b), terms, sums_b);
+      auto const on_a = hn::And(inside, labels == a);
+      auto const on_b = hn::And(inside, labels == b);
+      add_terms_where(on_a, terms, sums_a);
+      add_terms_where(on_b, terms, sums_b);
+      add_number(on_a, row.v, sums.a);
+      add_number(on_b, row.v, sums.b);
     }
   }
   add_lanes(sums_a, sums.a);
