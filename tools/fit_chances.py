@@ -71,7 +71,7 @@ def main():
     parser.add_argument("truth")
     parser.add_argument("--test", nargs=2, metavar=("RUNS", "TRUTH"), action="append", default=[],
                         help="other runs, as with other seeds or another sensor's noise, to be tested on")
-    parser.add_argument("--beside", nargs=4, type=float, default=[0.0, 0.2, 200.0, 2500.0],
+    parser.add_argument("--beside", nargs=4, type=float, default=[0.1, 0.2, 200.0, 2500.0],
                         metavar=("SHARE", "SHARE", "PX", "PX"),
                         help="limits to compare with (default: those of the default preset)")
     arguments = parser.parse_args()

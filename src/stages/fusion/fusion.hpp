@@ -37,7 +37,7 @@ struct ObjectFusionConfig {
   double unseen_relaxation = 0.1;
   // Of the rule that knows what it could not see: a detector finds nothing of which no more than
   // the first part is visible, and what is there as surely as it ever does from the second on.
-  double never_found_share = 0.0;
+  double never_found_share = 0.1;
   double surely_found_share = 0.2;
   /// Likewise by the pixels that the visible part covers, in which range and incidence come
   /// together; between the two it rises with their logarithm.

@@ -84,7 +84,10 @@ void update(ObjectBelief& object, Segmentation const& segmentation, ObjectLook c
     see(object, *observation, segmentation, config);
   } else {
     object.evidence = seen_through ? Evidence::kSeenThrough : Evidence::kNotSeen;
-    miss(object, news, config.objects);
+    // Where the depths fit it stands where it did, whoever does not find it.
+    if (ratio < 1.0) {
+      miss(object, news, config.objects);
+    }
   }
   Verdict const verdict = observation != nullptr ? Verdict::kSeen : Verdict::kGone;
   double const counts = verdict != object.verdict ? 1.0 : news;

@@ -126,6 +126,26 @@ TEST(KnownObjectsOverTime, WhatIsMissedButFitsTheDepthsStays) {
   EXPECT_EQ(belief.objects[0].evidence, Evidence::kNotSeen);
 }
 
+// Nothing says that it was moved: what is known of its pose stays known.
+TEST(KnownObjectsOverTime, WhatFitsTheDepthsKeepsItsPose) {
+  BeliefState belief = told({0.0});
+  Segmentation seen = looked_for(view_of(0, {{kObject}}), FrameIndex{0});
+  find(seen, "box_1", 0.0);
+  belief = fuse(std::move(belief), seen, {}, surfaces());
+  Matrix6d const known = belief.objects[0].pose_world.covariance;
+  for (int i = 1; i < 50; ++i) {
+    belief =
+        fuse(std::move(belief), looked_for(view_of(i, {{kObject}}), FrameIndex{i}), {}, surfaces());
+    EXPECT_EQ(belief.objects[0].evidence, Evidence::kNotSeen);
+  }
+  EXPECT_EQ(belief.objects[0].pose_world.covariance, known);
+  for (int i = 50; i < 70; ++i) {
+    belief = fuse(std::move(belief), looked_for(view_of(i, {}), FrameIndex{i}), {}, surfaces());
+  }
+  EXPECT_GT(belief.objects[0].pose_world.covariance.trace(), 1.5 * known.trace())
+      << "one sees through it";
+}
+
 TEST(KnownObjectsOverTime, TheThesisForgetsEither) {
   FusionConfig config;
   config.visibility = false;

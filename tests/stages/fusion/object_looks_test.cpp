@@ -183,6 +183,7 @@ TEST(FoundIfVisible, RisesWithTheLogarithmOfPixels) {
   EXPECT_NEAR(found_if_visible(1.0, 1000.0, 0.9, config), 0.45, 1e-12);
   EXPECT_NEAR(found_if_visible(1.0, 10000.0, 0.9, config), 0.9, 1e-12);
   EXPECT_NEAR(found_if_visible(1.0, 1e6, 0.9, config), 0.9, 1e-12);
+  config.never_found_share = 0.0;
   config.surely_found_share = 0.5;
   EXPECT_NEAR(found_if_visible(0.25, 1000.0, 0.9, config), 0.225, 1e-12) << "both";
 }
