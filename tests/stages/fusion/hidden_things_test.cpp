@@ -79,6 +79,15 @@ TEST(HiddenThings, WhatHidesItIsAnother) {
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
 }
 
+// Half of it shows, if as nothing's surface: that is no thing whose other side is to be expected.
+TEST(HiddenThings, WhatTouchesSomethingHalfHiddenIsAnother) {
+  Room room = room_with_a_thing();
+  Board const half_a_pole{std::nullopt, 0.0, -0.2, 0.08, 0.6, 1.2};
+  Board const its_surface{std::nullopt, 0.0, 0.0, 0.2, 0.2};
+  room.show({.boards = {half_a_pole, its_surface, kOtherSide}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+}
+
 TEST(HiddenThings, BesideWhatShowsItIsAnother) {
   Room room = room_with_a_thing();
   room.show({.boards = {kKnown, kOtherSide}});
