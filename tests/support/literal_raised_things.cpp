@@ -102,8 +102,9 @@ class Finder {
 public:
   using Pixels = std::vector<std::size_t>;
 
-  Finder(Grid<std::int32_t> const& labels, Grid<float> const& heights, std::size_t least_px)
-      : labels_(labels), heights_(heights), least_px_(least_px) {}
+  Finder(Grid<std::int32_t> const& labels, Grid<float> const& heights, std::size_t least_px,
+         double scale)
+      : labels_(labels), heights_(heights), least_px_(least_px), scale_(scale) {}
 
   std::vector<Pixels> found() && {
     Pixels all(labels_.size());
@@ -151,40 +152,57 @@ private:
   }
 
   [[nodiscard]] bool is_thing(Pixels const& piece, std::size_t level) const {
+    int const rim_px = std::max(1, static_cast<int>(std::lround(8.0 * scale_)));
+    int const far_px = std::max(1, static_cast<int>(std::lround(5.0 * scale_)));
     double on_it = 0.0;
     double beside = 0.0;
+    double rim = 0.0;
     double steps = 0.0;
+    double blurred_steps = 0.0;
     for (std::size_t const i : piece) {
       Pixel const p = labels_.pixel(i);
       for (Pixel const q : neighbours(p)) {
         if (!labels_.contains(q) || labels_[q] == 0) {
           continue;
         }
+        Pixel const out{q.u - p.u, q.v - p.v};
+        Pixel const beyond{p.u + rim_px * out.u, p.v + rim_px * out.v};
+        bool const is_rim =
+            labels_.contains(beyond) && labels_[beyond] != 0 && labels_[beyond] != labels_[p];
         if (labels_[q] != labels_[p]) {
           beside += 1.0;
         } else if (heights_[q] <= kLevels.at(level)) {
+          rim += is_rim ? 1.0 : 0.0;
+          auto const within = [&](int px) { return height_at(p, -px * out.u, -px * out.v); };
+          auto const outside = [&](int px) { return height_at(q, px * out.u, px * out.v); };
           on_it += 1.0;
-          steps += height_at(p, 2 * (p.u - q.u), 2 * (p.v - q.v), labels_[p]) -
-                   height_at(q, 2 * (q.u - p.u), 2 * (q.v - p.v), labels_[p]);
+          steps += within(2) - outside(2);
+          blurred_steps +=
+              std::max(within(2), within(far_px)) - std::min(outside(2), outside(far_px));
         }
       }
     }
-    return steps >= on_it && beside <= 0.4 * (on_it + beside);
+    return (middle_height(piece) < 1.5F ? steps : blurred_steps) >= on_it &&
+           beside + rim <= 0.4 * (on_it + beside);
   }
 
-  /// So far from p if that is on the segment too, else at p.
-  [[nodiscard]] double height_at(Pixel p, int du, int dv, std::int32_t label) const {
+  /// So far from p if that is on its segment too, else at p.
+  [[nodiscard]] double height_at(Pixel p, int du, int dv) const {
     Pixel const q{p.u + du, p.v + dv};
-    return static_cast<double>(heights_[labels_.contains(q) && labels_[q] == label ? q : p]);
+    return static_cast<double>(heights_[labels_.contains(q) && labels_[q] == labels_[p] ? q : p]);
   }
 
-  [[nodiscard]] Pixels upper_half(Pixels piece) const {
+  [[nodiscard]] float middle_height(Pixels const& piece) const {
     std::vector<float> heights;
     for (std::size_t const i : piece) {
       heights.push_back(heights_[i]);
     }
     std::ranges::sort(heights);
-    float const least = 0.5F * heights[heights.size() / 2];
+    return heights[heights.size() / 2];
+  }
+
+  [[nodiscard]] Pixels upper_half(Pixels piece) const {
+    float const least = 0.5F * middle_height(piece);
     std::erase_if(piece, [&](std::size_t i) { return heights_[i] < least; });
     return piece;
   }
@@ -192,6 +210,7 @@ private:
   Grid<std::int32_t> const& labels_;
   Grid<float> const& heights_;
   std::size_t least_px_;
+  double scale_;
   std::vector<Pixels> found_;
 };
 
@@ -204,7 +223,7 @@ Segments literal_raised_things(Segments segments, Grid<float> const& depth_m, do
       static_cast<std::size_t>(std::max(1.0, std::round(config.raised_min_pixels * scale * scale)));
   Grid<float> const heights = Heights(segments, depth_m, focal_px, config).smooth();
   segments.lies_on.assign(segments.pixel_counts.size(), 0);
-  for (auto const& pixels : Finder(segments.labels, heights, least_px).found()) {
+  for (auto const& pixels : Finder(segments.labels, heights, least_px, scale).found()) {
     std::int32_t const base = segments.labels[pixels.front()];
     segments.pixel_counts.push_back(static_cast<std::uint32_t>(pixels.size()));
     segments.pixel_counts[static_cast<std::size_t>(base - 1)] -=

@@ -20,13 +20,19 @@ namespace {
 using segments::PaddedGrid;
 using segments::RowBits;
 
-/// What is around a thing is the surface, but for this part.
+/// What is around a thing is the surface, but for this part; a rim, which has next to nothing of it
+/// on one side, is a part of what it is the rim of. At the reference focal length.
 constexpr double kBeside = 0.4;
+constexpr double kRim_px = 8.0;
 /// Levels at which pieces are looked for, the lower the better; where the surface itself is bent
 /// more than that, the next.
 constexpr std::array<float, 4> kLevels = {0.5F, 0.75F, 1.0F, 1.5F};
-/// A thing has an edge; what a sensor bends has none.
+/// A thing has an edge; what a sensor bends has none. Sensors blur edges: of what is half as high
+/// again as it must be, they are looked for over more pixels, too (at the reference focal length).
 constexpr double kLeastStep = 1.0;
+constexpr float kClearlyHigh = 1.5F;
+constexpr int kAway_px = 2;
+constexpr double kBlurred_px = 5.0;
 
 /// Pixels of a row, side by side, of one segment, that stand out; as many as there are.
 struct Run {
@@ -92,8 +98,14 @@ struct Raised {
 
 class RaisedFinder {
 public:
-  RaisedFinder(Segments const& segments, PaddedGrid<float> const& heights, std::size_t least_px)
-      : labels_(segments.labels), heights_(heights), least_px_(least_px) {}
+  /// `scale` is that of lengths in pixels.
+  RaisedFinder(Segments const& segments, PaddedGrid<float> const& heights, std::size_t least_px,
+               double scale)
+      : labels_(segments.labels),
+        heights_(heights),
+        least_px_(least_px),
+        rim_px_(std::max(1, static_cast<int>(std::lround(kRim_px * scale)))),
+        blurred_px_(std::max(1, static_cast<int>(std::lround(kBlurred_px * scale)))) {}
 
   /// In the order of their first pixels, those of one piece together.
   std::vector<Raised> found() && {
@@ -138,7 +150,7 @@ private:
       if (!is_high(piece)) {
         continue;
       }
-      if (is_thing(edge_of(piece))) {
+      if (is_thing(piece)) {
         float const least = 0.5F * middle_height(piece);
         found_.push_back({std::move(piece), least});
       } else if (level + 1 < kLevels.size()) {
@@ -171,72 +183,116 @@ private:
 
   /// Whether any of it is as high as a thing's middle.
   [[nodiscard]] bool is_high(Runs const& piece) const {
-    return std::ranges::any_of(piece, [&](Run const& run) {
-      float const* const row = heights_.row(run.v);
-      // All at once, so that it vectorises.
-      int high = 0;
-      for (int u = run.begin; u < run.end; ++u) {
-        high |= row[u] >= 1.0F ? 1 : 0;
-      }
-      return high != 0;
-    });
+    return std::ranges::any_of(piece, [&](Run const& run) { return high_pixels(run, 1.0F) > 0; });
   }
 
-  [[nodiscard]] static bool is_thing(Edge const& edge) {
+  /// Whether its middle height is as high as a clearly high one.
+  [[nodiscard]] bool is_clearly_high(Runs const& piece) const {
+    int pixels = 0;
+    int high = 0;
+    for (Run const& run : piece) {
+      pixels += run.end - run.begin;
+      high += high_pixels(run, kClearlyHigh);
+    }
+    return high >= pixels - pixels / 2;
+  }
+
+  /// How many of a run's are that high.
+  [[nodiscard]] int high_pixels(Run const& run, float least) const {
+    float const* const row = heights_.row(run.v);
+    // Without a branch, so that it vectorises.
+    int high = 0;
+    for (int u = run.begin; u < run.end; ++u) {
+      high += row[u] >= least ? 1 : 0;
+    }
+    return high;
+  }
+
+  [[nodiscard]] bool is_thing(Runs const& piece) const {
+    Edge const edge = edge_of(piece);
     auto const on_it = static_cast<double>(edge.on_it);
     auto const beside = static_cast<double>(edge.beside);
-    return edge.steps >= kLeastStep * on_it && beside <= kBeside * (on_it + beside);
+    double const most_beside = kBeside * (on_it + beside);
+    return beside <= most_beside &&
+           (edge.steps >= kLeastStep * on_it ||
+            (is_clearly_high(piece) && blurred_steps(piece) >= kLeastStep * on_it)) &&
+           beside + rim(piece) <= most_beside;
   }
 
   [[nodiscard]] Edge edge_of(Runs const& piece) const {
     Edge edge;
+    for_outline(piece, [&](Pixel p, Pixel q) {
+      if (labels_[q] != labels_[p]) {
+        ++edge.beside;
+      } else {
+        ++edge.on_it;
+        edge.steps += height_beyond(q, p, kAway_px) - height_beyond(p, q, kAway_px);
+      }
+    });
+    return edge;
+  }
+
+  /// Of the pairs on the same segment, the differences across as many pixels as blur may take.
+  [[nodiscard]] double blurred_steps(Runs const& piece) const {
+    double steps = 0.0;
+    for_outline(piece, [&](Pixel p, Pixel q) {
+      if (labels_[q] == labels_[p]) {
+        steps += std::max(height_beyond(q, p, kAway_px), height_beyond(q, p, blurred_px_)) -
+                 std::min(height_beyond(p, q, kAway_px), height_beyond(p, q, blurred_px_));
+      }
+    });
+    return steps;
+  }
+
+  /// Of the pairs on the same segment, those that have another not far outside.
+  [[nodiscard]] double rim(Runs const& piece) const {
+    std::size_t pairs = 0;
+    for_outline(piece, [&](Pixel p, Pixel q) {
+      Pixel const beyond{p.u + rim_px_ * (q.u - p.u), p.v + rim_px_ * (q.v - p.v)};
+      bool const is_other =
+          labels_.contains(beyond) && labels_[beyond] != 0 && labels_[beyond] != labels_[p];
+      pairs += labels_[q] == labels_[p] && is_other ? 1 : 0;
+    });
+    return static_cast<double>(pairs);
+  }
+
+  /// Calls `visit(p, q)` for each pixel p of a piece and neighbour q outside that has a segment.
+  template <typename Visit>
+  void for_outline(Runs const& piece, Visit const& visit) const {
+    auto const visit_pair = [&](Pixel p, Pixel q) {
+      if (labels_.contains(q) && labels_[q] != 0) {
+        visit(p, q);
+      }
+    };
     for (Run const& run : piece) {
-      add({run.begin, run.v}, {run.begin - 1, run.v}, edge);
-      add({run.end - 1, run.v}, {run.end, run.v}, edge);
+      visit_pair({run.begin, run.v}, {run.begin - 1, run.v});
+      visit_pair({run.end - 1, run.v}, {run.end, run.v});
     }
     for (int const below : {-1, 1}) {
       for_each_with_next(piece, below, [&](std::size_t i, std::size_t first, std::size_t last) {
         Run const& run = piece[i];
         int u = run.begin;
-        auto const add_until = [&](int end) {
+        auto const visit_until = [&](int end) {
           for (; u < end; ++u) {
-            add({u, run.v}, {u, run.v + below}, edge);
+            visit_pair({u, run.v}, {u, run.v + below});
           }
         };
         for (std::size_t next = first; next < last; ++next) {
-          add_until(piece[next].begin);
+          visit_until(piece[next].begin);
           u = piece[next].end;
         }
-        add_until(run.end);
+        visit_until(run.end);
       });
     }
-    return edge;
   }
 
-  /// p is of the piece, q is not.
-  void add(Pixel p, Pixel q, Edge& edge) const {
-    if (!labels_.contains(q) || labels_[q] == 0) {
-      return;
-    }
-    if (labels_[q] != labels_[p]) {
-      ++edge.beside;
-    } else {
-      ++edge.on_it;
-      edge.steps += step_across(p, q);
-    }
-  }
-
-  /// How much lower it is two pixels beyond q than two pixels before p.
-  [[nodiscard]] double step_across(Pixel p, Pixel q) const {
-    constexpr int kAway = 2;
-    Pixel const inside{p.u - kAway * (q.u - p.u), p.v - kAway * (q.v - p.v)};
-    Pixel const outside{q.u + kAway * (q.u - p.u), q.v + kAway * (q.v - p.v)};
-    auto const height = [&](Pixel at, Pixel otherwise) {
-      bool const same = labels_.contains(at) && labels_[at] == labels_[p];
-      Pixel const used = same ? at : otherwise;
-      return static_cast<double>(heights_.row(used.v)[used.u]);
-    };
-    return height(inside, p) - height(outside, q);
+  /// Of two neighbours on one segment, the height so many pixels beyond the second; at the second
+  /// itself where that is not on the segment.
+  [[nodiscard]] double height_beyond(Pixel first, Pixel second, int px) const {
+    Pixel const beyond{second.u + px * (second.u - first.u), second.v + px * (second.v - first.v)};
+    bool const is_same = labels_.contains(beyond) && labels_[beyond] == labels_[second];
+    Pixel const at = is_same ? beyond : second;
+    return static_cast<double>(heights_.row(at.v)[at.u]);
   }
 
   /// What of a piece is higher than that.
@@ -273,6 +329,8 @@ private:
   Grid<std::int32_t> const& labels_;
   PaddedGrid<float> const& heights_;
   std::size_t least_px_;
+  int rim_px_;
+  int blurred_px_;
   std::vector<Raised> found_;
 };
 
@@ -301,7 +359,7 @@ Segments with_raised_things(Segments segments, Grid<float> const& depth_m, doubl
       static_cast<std::size_t>(std::max(1.0, std::round(config.raised_min_pixels * scale * scale)));
   PaddedGrid<float> const heights = segments::relief(segments, depth_m, focal_px, config);
   segments.lies_on.assign(segments.pixel_counts.size(), 0);
-  for (Raised const& raised : RaisedFinder(segments, heights, least_px).found()) {
+  for (Raised const& raised : RaisedFinder(segments, heights, least_px, scale).found()) {
     std::int32_t const base = raised.piece.front().label;
     auto const label = static_cast<std::int32_t>(segments.pixel_counts.size() + 1);
     std::uint32_t const pixels = take_off(raised, heights, label, segments.labels);

@@ -163,7 +163,7 @@ private:
     }
     std::int32_t const outside = front->first;
     Labels const found = island(label, outside);
-    if (!lies_within(found, found, outside)) {
+    if (!lies_within(found, found, outside) || is_cut_off_beside(found, outside)) {
       return;
     }
     // Things in it stay apart.
@@ -212,6 +212,21 @@ private:
     double const pairs = with_outside.pairs() + with_others.pairs();
     return with_outside.behind > kRim * pairs && with_others.before > kRim * pairs &&
            with_others.behind <= kHardly * with_outside.behind;
+  }
+
+  /// Whether the image's border cuts some segments off where it does not cut off `outside`: a
+  /// vessel's front is before and beneath all of its inside, so that the border cuts both, but at
+  /// the top. Beneath a table the floor goes on.
+  [[nodiscard]] bool is_cut_off_beside(Labels const& inside, std::int32_t outside) const {
+    int const last_u = depth_m_.width() - 1;
+    int const last_v = depth_m_.height() - 1;
+    PixelBox const& front = outline(outside).box;
+    return std::ranges::any_of(inside, [&](std::int32_t part) {
+      PixelBox const& box = outline(part).box;
+      return (box.first.u == 0 && front.first.u > 0) ||
+             (box.last.u == last_u && front.last.u < last_u) ||
+             (box.last.v == last_v && front.last.v < last_v);
+    });
   }
 
   /// How a surface bends over its size: of the quadratic that fits its inverse depth, the second

@@ -74,6 +74,44 @@ TEST(RaisedThings, WhatASensorBendsHasNoEdge) {
   EXPECT_THAT(raised_in(seen(depth_m)), IsEmpty());
 }
 
+/// On a plane, as high in its middle as told, sinking to nothing within so many pixels.
+Grid<float> blurred_plate(double quanta, double blur_px) {
+  return depth_of_quanta(640, 480, [=](Pixel p) {
+    double const inside_px = std::min(50.0 - std::abs(p.u - 320), 40.0 - std::abs(p.v - 240));
+    return 250.0 + quanta * std::clamp(inside_px / blur_px + 0.5, 0.0, 1.0);
+  });
+}
+
+// A magazine seen from two metres away.
+TEST(RaisedThings, ASensorBlursEdges) {
+  EXPECT_THAT(raised_in(seen(blurred_plate(3.5, 10.0))), ElementsAre(2));
+  Segments const segments = seen(blurred_plate(3.5, 10.0));
+  EXPECT_NEAR(segments.pixel_counts[1], 100 * 80, 0.2 * 100 * 80);
+  // Noise is as high as that, and has such slopes.
+  EXPECT_THAT(raised_in(seen(blurred_plate(2.3, 10.0))), IsEmpty());
+  // No edge is as wide as this.
+  EXPECT_THAT(raised_in(seen(blurred_plate(3.5, 30.0))), IsEmpty());
+}
+
+// A lid has a rim, and a little beyond it; a thing may lie as near to the edge.
+TEST(RaisedThings, ARimIsNone) {
+  for (bool const is_rim : {true, false}) {
+    Segments segments;
+    segments.labels = Grid<std::int32_t>(640, 480, 1);
+    segments.pixel_counts = {640 * 480 - 320 * 200, 320 * 200};
+    Grid<float> const depth_m = depth_of_quanta(640, 480, [&](Pixel p) {
+      if (p.u < 160 || p.u >= 480 || p.v < 140 || p.v >= 340) {
+        return 250.0;
+      }
+      segments.labels[p] = 2;
+      bool const is_raised = p.v > 315 && p.v < 334 && (is_rim || std::abs(p.u - 320) < 12);
+      return is_raised ? 314.0 : 310.0;
+    });
+    Segments const result = with_raised_things(segments, depth_m, 525.0, {});
+    EXPECT_EQ(raised_in(result).size(), is_rim ? 0U : 1U);
+  }
+}
+
 TEST(RaisedThings, OnABentSurfaceTheyAreFoundAllTheSame) {
   Grid<float> const depth_m = depth_of_quanta(640, 480, [](Pixel p) {
     double const u = (p.u - 320) / 80.0;

@@ -188,6 +188,38 @@ TEST(JoinParts, AnInsideIsHollowNotTooLargeAndBehindNothingElse) {
   EXPECT_FALSE(behind_another.joins(std::nullopt)) << "something else hides a part of it";
 }
 
+// Beneath a table the floor goes on to the border, and the table does not.
+TEST(JoinParts, AnInsideIsNotCutOffBesideItsOutside) {
+  auto const hollow_about = [](double middle_u) {
+    return [middle_u](Pixel p) {
+      return hollow_inside({p.u + 99 - static_cast<int>(middle_u), 0});
+    };
+  };
+  struct Case {
+    char const* name;
+    Pixel first;
+    Pixel last;
+    Pixel front_first;
+    Pixel front_last;
+    bool joins;
+  };
+  // The image is 200 by 150.
+  for (Case const& c : {
+           Case{"left, both", {0, 50}, {80, 70}, {0, 70}, {80, 100}, true},
+           Case{"left, one", {0, 50}, {80, 70}, {20, 70}, {100, 100}, false},
+           Case{"right, both", {120, 50}, {200, 70}, {120, 70}, {200, 100}, true},
+           Case{"right, one", {120, 50}, {200, 70}, {100, 70}, {180, 100}, false},
+           Case{"bottom, both", {60, 100}, {140, 150}, {10, 110}, {60, 150}, true},
+           Case{"bottom, one", {60, 100}, {140, 150}, {10, 110}, {60, 149}, false},
+           Case{"top, where its outside is not", {60, 0}, {140, 20}, {60, 20}, {140, 50}, true},
+       }) {
+    Schematic picture;
+    picture.add(c.front_first, c.front_last, [](Pixel) { return 0.9; });
+    picture.add(c.first, c.last, hollow_about((c.first.u + c.last.u) / 2.0));
+    EXPECT_EQ(picture.joins(std::nullopt), c.joins) << c.name;
+  }
+}
+
 TEST(JoinParts, AnAttachmentIsSmallAndTouchesWhereItMeets) {
   Vector3d const up(0, -1, 0);
   auto const body_with = [](Pixel last, auto const& handle_m) {
