@@ -103,6 +103,36 @@ std::vector<LabelCode> labels_of(std::vector<std::size_t> const& sizes, std::siz
   return labels;
 }
 
+// Takes what has no piece of so many pixels that holds together out of the labels and the runs:
+// specks that a known object, the floor or a wall has left of its segment are no thing. The others
+// are numbered anew.
+void drop_specks(std::size_t min_pixels, std::vector<LabelCode>& label_of_component,
+                 std::vector<StuffRun>& runs, LabelMap& labels) {
+  std::vector<LabelCode> renamed(kMaxStuff, kUnassigned);
+  for (StuffRun const& run : runs) {
+    if (run.piece_px >= min_pixels) {
+      renamed[run.label - std::size_t{kFirstStuff}] = run.label;
+    }
+  }
+  LabelCode next = kFirstStuff;
+  for (LabelCode& label : renamed) {
+    label = label == kUnassigned ? label : next++;
+  }
+  auto const rename = [&](LabelCode& label) {
+    label = is_stuff(label) ? renamed[label - std::size_t{kFirstStuff}] : label;
+  };
+  std::ranges::for_each(label_of_component, rename);
+  for (StuffRun& run : runs) {
+    LabelCode const before = run.label;
+    rename(run.label);
+    if (run.label != before) {
+      std::fill(labels.begin() + static_cast<std::ptrdiff_t>(run.pixels.begin),
+                labels.begin() + static_cast<std::ptrdiff_t>(run.pixels.end), run.label);
+    }
+  }
+  std::erase_if(runs, [](StuffRun const& run) { return run.label == kUnassigned; });
+}
+
 // What of the clusters lies on another, as the segments have it.
 void tell_what_lies_on_what(Runs const& runs, std::vector<LabelCode> const& label_of_component,
                             Segments const& segments, std::vector<StuffCluster>& stuff) {
@@ -153,8 +183,8 @@ Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals, Segment
   bool const has_segments = !segmentation.segments.labels.empty();
   Runs const runs = has_segments ? segment_components(segmentation)
                                  : reachable_components(frame, normals, segmentation, config);
-  std::vector<LabelCode> const label =
-      labels_of(sizes_of(runs), static_cast<std::size_t>(std::max(config.min_pixels, 1)));
+  auto const min_pixels = static_cast<std::size_t>(std::max(config.min_pixels, 1));
+  std::vector<LabelCode> label = labels_of(sizes_of(runs), min_pixels);
   for (ComponentRun const& run : runs) {
     std::fill_n(labels.row(run.v).begin() + run.begin, run.end - run.begin,
                 label[static_cast<std::size_t>(run.component)]);
@@ -167,10 +197,13 @@ Segmentation cluster_stuff(Frame const& frame, NormalMap const& normals, Segment
   PixelSampling const sampling{static_cast<float>(config.point_spacing_m),
                                has_segments ? static_cast<float>(frame.intrinsics.fx_px) : 0.0F,
                                Eigen::Vector3f::Zero()};
+  std::vector<StuffRun> stuff =
+      has_segments ? firm_runs(frame.cloud_camera.z, labels) : stuff_runs(labels);
+  if (has_segments) {
+    drop_specks(min_pixels, label, stuff, labels);
+  }
   segmentation.stuff =
-      stuff_clusters(frame.cloud_camera,
-                     has_segments ? firm_runs(frame.cloud_camera.z, labels) : stuff_runs(labels),
-                     sampling, segmentation.T_world_camera);
+      stuff_clusters(frame.cloud_camera, stuff, sampling, segmentation.T_world_camera);
   tell_what_lies_on_what(runs, label, segmentation.segments, segmentation.stuff);
   segmentation.segments = {};
   return segmentation;

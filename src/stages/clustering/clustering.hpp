@@ -25,7 +25,9 @@ struct ClusteringConfig {
 FieldList fields(ClusteringConfig& config);
 
 /// Clusters what nothing else has explained: the pixels of `frame` that `segmentation` leaves
-/// kUnassigned. Where it holds segments, each is a cluster, with all its pixels that are left.
+/// kUnassigned. Where it holds segments, each is a cluster, with all its pixels that are left, if a
+/// piece of them that holds together (firm_runs) is large enough: objects, floor and walls leave
+/// specks of what they have taken.
 /// Without, clusters are what the thesis' algorithm 3 makes of the pixels that have a normal
 /// (camera frame); then pixels without one take the label of what they touch, be it stuff, floor,
 /// wall or object. Each cluster becomes a StuffCluster and gets a label, kFirstStuff + i by the

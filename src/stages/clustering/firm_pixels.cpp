@@ -237,6 +237,7 @@ std::vector<StuffRun> firm_runs(Grid<float> const& depth_m, LabelMap const& labe
     result[i].pixels = {row + static_cast<std::size_t>(runs[i].begin),
                         row + static_cast<std::size_t>(runs[i].end)};
     result[i].label = labels[result[i].pixels.begin];
+    result[i].piece_px = sizes_px[i];
     std::size_t& most_px = largest_px[result[i].label - std::size_t{kFirstStuff}];
     most_px = std::max(most_px, sizes_px[i]);
   }

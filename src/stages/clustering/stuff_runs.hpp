@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "core/label.hpp"
 #include "geometry/sampled_cells.hpp"
 
@@ -11,6 +13,8 @@ struct StuffRun {
   LabelCode label = kFirstStuff;
   /// Whether they hold together with most of their label; see firm_runs.
   bool is_firm = true;
+  /// Of the piece that they belong to; 0 where firm_runs was not asked.
+  std::size_t piece_px = 0;
 };
 
 }  // namespace credo

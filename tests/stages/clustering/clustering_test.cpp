@@ -150,6 +150,26 @@ TEST(ClusterStuff, WhatIsLeftOfASegmentStaysOneThing) {
   EXPECT_THAT(cluster_stuff(frame, NormalMap(20, 10), before, {.min_pixels = 55}).stuff, SizeIs(1));
 }
 
+TEST(ClusterStuff, SpecksThatAreLeftOfASegmentAreNone) {
+  Frame const frame = frame_of(20, 10, std::vector<float>(20, 1.0F));
+  Segmentation before = with_segments(frame);
+  // 54 pixels in two pieces are left of the first segment, 90 of the second.
+  for (int v = 0; v < 10; ++v) {
+    std::ranges::fill(before.labels.row(v).subspan(3, 4), kFloor);
+  }
+  before.segments.lies_on = {0, 5, 0, 0, 0};
+  EXPECT_THAT(cluster_stuff(frame, NormalMap(20, 10), before, {.min_pixels = 27}).stuff, SizeIs(2));
+  Segmentation const result = cluster_stuff(frame, NormalMap(20, 10), before, {.min_pixels = 28});
+  ASSERT_THAT(result.stuff, SizeIs(1));
+  EXPECT_EQ(result.stuff[0].label, kFirstStuff);
+  EXPECT_EQ(result.stuff[0].pixel_count, 90U);
+  EXPECT_FALSE(result.stuff[0].lies_on.has_value());
+  EXPECT_THAT(result.labels.row(4).first(3), Each(kUnassigned));
+  EXPECT_THAT(result.labels.row(4).subspan(3, 4), Each(kFloor));
+  EXPECT_THAT(result.labels.row(4).subspan(7, 3), Each(kUnassigned));
+  EXPECT_THAT(result.labels.row(4).last(10), Each(kFirstStuff));
+}
+
 TEST(ClusterStuff, IgnoresSmallClusters) {
   Frame const frame = two_boards();
   NormalMap const normals = facing_normals(frame);

@@ -23,9 +23,10 @@ using ::testing::SizeIs;
 
 constexpr LabelCode kThing = kFirstStuff;
 
-/// 1 where a run is firm. Runs are in raster order, and each pixel of stuff is in one.
-Grid<std::uint8_t> firm_pixels(Grid<float> const& depth_m, LabelMap const& labels) {
-  Grid<std::uint8_t> firm(labels.width(), labels.height());
+/// Of stuff the pixels of the piece that a pixel is in, with a minus where that is not firm. Runs
+/// are in raster order, and each pixel of stuff is in one.
+Grid<std::int64_t> pieces_px(Grid<float> const& depth_m, LabelMap const& labels) {
+  Grid<std::int64_t> result(labels.width(), labels.height());
   std::size_t pixels = 0;
   std::size_t last_end = 0;
   for (StuffRun const& run : firm_runs(depth_m, labels)) {
@@ -36,15 +37,16 @@ Grid<std::uint8_t> firm_pixels(Grid<float> const& depth_m, LabelMap const& label
     pixels += run.pixels.end - run.pixels.begin;
     for (std::size_t i = run.pixels.begin; i < run.pixels.end; ++i) {
       EXPECT_EQ(labels[i], run.label);
-      firm[i] = run.is_firm ? 1 : 0;
+      auto const piece_px = static_cast<std::int64_t>(run.piece_px);
+      result[i] = run.is_firm ? piece_px : -piece_px;
     }
   }
   EXPECT_EQ(pixels, static_cast<std::size_t>(std::ranges::count_if(labels, is_stuff)));
-  return firm;
+  return result;
 }
 
 /// Word for word: one piece after the other is filled, pixel by pixel.
-Grid<std::uint8_t> literal_firm_pixels(Grid<float> const& depth_m, LabelMap const& labels) {
+Grid<std::int64_t> literal_pieces_px(Grid<float> const& depth_m, LabelMap const& labels) {
   constexpr std::array<Pixel, 4> kSteps = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   Grid<std::uint8_t> taken(labels.width(), labels.height());
   std::vector<std::vector<Pixel>> pieces;
@@ -66,16 +68,17 @@ Grid<std::uint8_t> literal_firm_pixels(Grid<float> const& depth_m, LabelMap cons
     }
     pieces.push_back(piece);
   }
-  Grid<std::uint8_t> firm(labels.width(), labels.height());
+  Grid<std::int64_t> result(labels.width(), labels.height());
   for (auto const& piece : pieces) {
+    auto const piece_px = static_cast<std::int64_t>(piece.size());
     bool const is_firm = std::ranges::all_of(pieces, [&](auto const& other) {
       return labels[other[0]] != labels[piece[0]] || 10 * piece.size() >= other.size();
     });
     for (Pixel const p : piece) {
-      firm[p] = is_firm ? 1 : 0;
+      result[p] = is_firm ? piece_px : -piece_px;
     }
   }
-  return firm;
+  return result;
 }
 
 /// Labels and depths of pieces from large ones with a few holes to crumbs.
@@ -92,7 +95,7 @@ void expect_literal(int width, int height, bool nan_without_depth, std::mt19937&
                  : random() % 16 < noise ? 1.0F + 0.01F * static_cast<float>(random() % 16)
                                          : 1.1F;
   }
-  EXPECT_TRUE(firm_pixels(depth_m, labels) == literal_firm_pixels(depth_m, labels));
+  EXPECT_TRUE(pieces_px(depth_m, labels) == literal_pieces_px(depth_m, labels));
 }
 
 TEST(FirmPixels, AreThoseOfTheLiteralAlgorithm) {
@@ -128,9 +131,9 @@ TEST(FirmPixels, AreThoseThatHoldTogether) {
   LabelMap const labels(8, 6, kThing);
   depth_m[{3, 2}] = 3.0F;
   depth_m[{4, 2}] = 3.0F;
-  Grid<std::uint8_t> const firm = firm_pixels(depth_m, labels);
+  Grid<std::int64_t> const firm = pieces_px(depth_m, labels);
   for (std::size_t i = 0; i < firm.size(); ++i) {
-    EXPECT_EQ(firm[i], depth_m[i] > 2.0F ? 0 : 1) << i;
+    EXPECT_EQ(firm[i], depth_m[i] > 2.0F ? -2 : 46) << i;
   }
 }
 
@@ -139,9 +142,9 @@ TEST(FirmPixels, BothHalvesOfAThingThatIsCutInTwoAreFirmAndFloorIsNoStuff) {
   for (int v = 0; v < 3; ++v) {
     labels[{6, v}] = kFloor;
   }
-  Grid<std::uint8_t> const firm = firm_pixels(Grid<float>(9, 3, 2.0F), labels);
+  Grid<std::int64_t> const firm = pieces_px(Grid<float>(9, 3, 2.0F), labels);
   for (std::size_t i = 0; i < firm.size(); ++i) {
-    EXPECT_EQ(firm[i], labels[i] == kThing ? 1 : 0);
+    EXPECT_EQ(firm[i] > 0, labels[i] == kThing);
   }
 }
 
@@ -150,7 +153,7 @@ TEST(FirmPixels, ASlantedSurfaceIsFirmAsFarAsAKinectGoes) {
   for (std::size_t i = 0; i < depth_m.size(); ++i) {
     depth_m[i] = 1.0F / (0.25F + 0.005F * static_cast<float>(depth_m.pixel(i).u));
   }
-  EXPECT_THAT(firm_pixels(depth_m, LabelMap(10, 6, kThing)), Each(1));
+  EXPECT_THAT(pieces_px(depth_m, LabelMap(10, 6, kThing)), Each(60));
 }
 
 TEST(FirmPixels, WhatFallsApartAltogetherIsAllFirm) {
@@ -158,7 +161,7 @@ TEST(FirmPixels, WhatFallsApartAltogetherIsAllFirm) {
   for (std::size_t i = 0; i < depth_m.size(); ++i) {
     depth_m[i] = 1.0F / (0.1F + 0.03F * static_cast<float>(i));
   }
-  EXPECT_THAT(firm_pixels(depth_m, LabelMap(6, 6, kThing)), Each(1));
+  EXPECT_THAT(pieces_px(depth_m, LabelMap(6, 6, kThing)), Each(1));
 }
 
 // A bottle at 2 m with one pixel of the wall behind it.
