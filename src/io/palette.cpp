@@ -14,14 +14,16 @@ struct NamedColor {
   Rgb color;
 };
 
-constexpr std::array<NamedColor, 8> kStuff = {{{"purple", {165, 80, 235}},
-                                               {"yellow", {245, 220, 40}},
-                                               {"green", {70, 205, 70}},
-                                               {"orange", {250, 150, 40}},
-                                               {"light blue", {90, 120, 255}},
-                                               {"lime", {190, 240, 110}},
-                                               {"brown", {165, 110, 70}},
-                                               {"mint", {130, 220, 190}}}};
+/// As many as can be told apart; none is like floor, walls or the cloud.
+constexpr std::array<NamedColor, 24> kStuff = {
+    {{"purple", {165, 80, 235}},    {"yellow", {245, 220, 40}},     {"green", {70, 205, 70}},
+     {"orange", {250, 150, 40}},    {"light blue", {90, 120, 255}}, {"lime", {190, 240, 110}},
+     {"brown", {165, 110, 70}},     {"mint", {130, 220, 190}},      {"olive", {150, 145, 30}},
+     {"lavender", {205, 185, 255}}, {"teal", {10, 125, 120}},       {"peach", {255, 210, 165}},
+     {"slate", {115, 135, 160}},    {"navy", {50, 60, 170}},        {"gold", {205, 165, 20}},
+     {"moss", {70, 125, 45}},       {"plum", {120, 45, 140}},       {"cream", {250, 245, 190}},
+     {"jade", {20, 180, 130}},      {"rust", {190, 95, 25}},        {"steel blue", {60, 130, 200}},
+     {"khaki", {200, 200, 130}},    {"mocha", {110, 75, 60}},       {"silver", {195, 205, 205}}}};
 
 constexpr std::array<Rgb, 6> kObjects = {{{255, 0, 255},
                                           {70, 110, 255},

@@ -87,11 +87,11 @@ TEST(Pictures, StuffKeepsItsBeliefsColorInTheSegmentation) {
   segmentation.labels = LabelMap(320, 240, kFirstStuff);
   BeliefState belief = plain_belief();
   Grid<Rgb> const unknown = draw_picture(frame, segmentation, belief, {});
-  belief.stuff = {stuff_of(9, 2.0, {{2, 0, 0.5}})};
+  belief.stuff = {stuff_of(25, 2.0, {{2, 0, 0.5}})};
   belief.stuff[0].label = kFirstStuff;
   Grid<Rgb> const known = draw_picture(frame, segmentation, belief, {});
   EXPECT_EQ((unknown[Pixel{200, 50}]), (Rgb{167, 103, 219})) << "purple, the label's";
-  EXPECT_EQ((known[Pixel{200, 50}]), (Rgb{227, 208, 73})) << "yellow, that of id 9";
+  EXPECT_EQ((known[Pixel{200, 50}]), (Rgb{227, 208, 73})) << "yellow, that of id 25";
 }
 
 TEST(Pictures, ThePointsOfABeliefStandWhereTheViewsProjectThem) {
@@ -103,7 +103,7 @@ TEST(Pictures, ThePointsOfABeliefStandWhereTheViewsProjectThem) {
   Eigen::Vector3f const thing(2.6F, -0.6F, 0.3F);
   belief.floor.emplace();
   belief.floor->points = std::make_shared<PointList>(PointList{on_floor});
-  belief.stuff = {stuff_of(8, 40.0, {thing})};
+  belief.stuff = {stuff_of(24, 40.0, {thing})};
   Grid<Rgb> const picture = draw_picture(frame, segmentation, belief, {});
   View const views[] = {oblique_view(level_camera(), kOblique), map_view(level_camera(), kMap)};
   for (View const& view : views) {
@@ -163,10 +163,23 @@ TEST(Pictures, KnownObjectsAreCyanLikeTheCloudThatTheyAreFoundIn) {
 }
 
 TEST(Pictures, AColorOfStuffHasItsName) {
-  EXPECT_EQ(stuff_color(8, 1.0), kPurple);
-  EXPECT_STREQ(stuff_color_name(8), "purple");
-  EXPECT_STREQ(stuff_color_name(9), "yellow");
+  EXPECT_EQ(stuff_color(24, 1.0), kPurple);
+  EXPECT_STREQ(stuff_color_name(24), "purple");
+  EXPECT_STREQ(stuff_color_name(25), "yellow");
   EXPECT_STREQ(stuff_color_name(2), "green");
+}
+
+TEST(Pictures, TwoDozenThingsAreToldApart) {
+  for (std::uint32_t a = 0; a < 24; ++a) {
+    for (std::uint32_t b = 0; b < a; ++b) {
+      EXPECT_STRNE(stuff_color_name(a), stuff_color_name(b));
+      int difference = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        difference += std::abs(stuff_color(a, 1.0)[c] - stuff_color(b, 1.0)[c]);
+      }
+      EXPECT_GT(difference, 60) << stuff_color_name(a) << " and " << stuff_color_name(b);
+    }
+  }
 }
 
 TEST(Pictures, StuffPalesWithItsProbability) {
