@@ -29,9 +29,14 @@ SegmentsConfig keen_config() {
 /// How many were found, with a config that finds many.
 std::size_t expect_twin(Segments const& segments, Grid<float> const& depth_m) {
   std::size_t found = 0;
-  for (SegmentsConfig const& config : {SegmentsConfig(), keen_config()}) {
-    Segments const fast = with_raised_things(segments, depth_m, kFocal_px, config);
-    Segments const literal = test::literal_raised_things(segments, depth_m, kFocal_px, config);
+  struct Setting {
+    double focal_px = kFocal_px;
+    SegmentsConfig config;
+  };
+  for (auto const& [focal_px, config] :
+       {Setting(), Setting{0.6 * kFocal_px, keen_config()}, Setting{.config = keen_config()}}) {
+    Segments const fast = with_raised_things(segments, depth_m, focal_px, config);
+    Segments const literal = test::literal_raised_things(segments, depth_m, focal_px, config);
     EXPECT_EQ(fast.pixel_counts, literal.pixel_counts);
     EXPECT_EQ(fast.lies_on, literal.lies_on);
     EXPECT_TRUE(fast.labels == literal.labels);
