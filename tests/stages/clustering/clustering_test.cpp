@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 namespace credo {
@@ -153,21 +154,27 @@ TEST(ClusterStuff, WhatIsLeftOfASegmentStaysOneThing) {
 TEST(ClusterStuff, SpecksThatAreLeftOfASegmentAreNone) {
   Frame const frame = frame_of(20, 10, std::vector<float>(20, 1.0F));
   Segmentation before = with_segments(frame);
-  // 54 pixels in two pieces are left of the first segment, 90 of the second.
+  // 54 pixels in two pieces are left of the first segment; a third lies on the second.
   for (int v = 0; v < 10; ++v) {
     std::ranges::fill(before.labels.row(v).subspan(3, 4), kFloor);
   }
-  before.segments.lies_on = {0, 5, 0, 0, 0};
-  EXPECT_THAT(cluster_stuff(frame, NormalMap(20, 10), before, {.min_pixels = 27}).stuff, SizeIs(2));
+  for (int v = 2; v < 8; ++v) {
+    std::ranges::fill(before.segments.labels.row(v).last(6), 3);
+  }
+  before.segments.lies_on = {0, 0, 2, 0, 0};
+  EXPECT_THAT(cluster_stuff(frame, NormalMap(20, 10), before, {.min_pixels = 27}).stuff, SizeIs(3));
   Segmentation const result = cluster_stuff(frame, NormalMap(20, 10), before, {.min_pixels = 28});
-  ASSERT_THAT(result.stuff, SizeIs(1));
+  ASSERT_THAT(result.stuff, SizeIs(2));
   EXPECT_EQ(result.stuff[0].label, kFirstStuff);
-  EXPECT_EQ(result.stuff[0].pixel_count, 90U);
+  EXPECT_EQ(result.stuff[0].pixel_count, 54U);
   EXPECT_FALSE(result.stuff[0].lies_on.has_value());
+  EXPECT_EQ(result.stuff[1].pixel_count, 36U);
+  EXPECT_EQ(result.stuff[1].lies_on, std::optional(kFirstStuff));
   EXPECT_THAT(result.labels.row(4).first(3), Each(kUnassigned));
   EXPECT_THAT(result.labels.row(4).subspan(3, 4), Each(kFloor));
   EXPECT_THAT(result.labels.row(4).subspan(7, 3), Each(kUnassigned));
-  EXPECT_THAT(result.labels.row(4).last(10), Each(kFirstStuff));
+  EXPECT_THAT(result.labels.row(4).subspan(10, 4), Each(kFirstStuff));
+  EXPECT_THAT(result.labels.row(4).last(6), Each(kFirstStuff + 1));
 }
 
 TEST(ClusterStuff, IgnoresSmallClusters) {
