@@ -55,12 +55,21 @@ std::string camera_row(std::string const& name, std::optional<CameraScores> cons
                           : "-");
 }
 
+std::string bounds_text(double nees, double low, double high) {
+  return fmt::format("{:.2f} to {:.2f}: {}", low, high,
+                     nees >= low && nees <= high ? "inside" : "outside");
+}
+
 std::string nees_text(ObjectScores const& objects) {
   std::string text = fmt::format("NEES {} (expected {}", number_text(objects.nees, 2, ""),
                                  number_text(objects.nees_expected, 2, ""));
-  if (auto const inside = objects.nees_inside()) {
-    text += fmt::format(", 95 % within {:.2f} to {:.2f}: {}", *objects.nees_low, *objects.nees_high,
-                        *inside ? "inside" : "outside");
+  if (objects.nees && objects.nees_low && objects.nees_high) {
+    text += ", 95 % of independent claims within " +
+            bounds_text(*objects.nees, *objects.nees_low, *objects.nees_high);
+  }
+  if (objects.nees && objects.nees_repeated_low && objects.nees_repeated_high) {
+    text += ", as these repeat each other within " +
+            bounds_text(*objects.nees, *objects.nees_repeated_low, *objects.nees_repeated_high);
   }
   return text + ")";
 }

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -123,8 +125,10 @@ TEST_F(Eval, TellsWithinWhatAnHonestNeesLies) {
   EXPECT_NEAR(perfect["nees_low"], 21.336 / 6.0, 1e-3);
   EXPECT_NEAR(perfect["nees_high"], 54.437 / 6.0, 1e-3);
   EXPECT_EQ(perfect["nees_inside"], false);
-  EXPECT_NE(text().find("NEES 0.00 (expected 6.00, 95 % within 3.56 to 9.07: outside)"),
-            std::string::npos)
+  EXPECT_NE(
+      text().find(
+          "NEES 0.00 (expected 6.00, 95 % of independent claims within 3.56 to 9.07: outside, "),
+      std::string::npos)
       << text();
   for (json& belief : beliefs_) {
     for (json& object : belief["objects"]) {
@@ -142,9 +146,17 @@ TEST_F(Eval, TellsWithinWhatAnHonestNeesLies) {
     EXPECT_NEAR(claim["squared_error"], 4.0, 1e-6);
     EXPECT_EQ(claim["degrees_of_freedom"], 6);
   }
-  EXPECT_NE(text().find("NEES 4.00 (expected 6.00, 95 % within 3.56 to 9.07: inside)"),
-            std::string::npos)
+  EXPECT_NE(
+      text().find(
+          "NEES 4.00 (expected 6.00, 95 % of independent claims within 3.56 to 9.07: inside, "),
+      std::string::npos)
       << text();
+  std::ostringstream repeated;
+  repeated << std::fixed << std::setprecision(2) << "as these repeat each other within "
+           << spoilt["nees_repeated_low"].get<double>() << " to "
+           << spoilt["nees_repeated_high"].get<double>() << ": inside)";
+  EXPECT_LT(spoilt["nees_repeated_low"], spoilt["nees_low"]);
+  EXPECT_NE(text().find(repeated.str()), std::string::npos) << text();
 }
 
 TEST_F(Eval, ErodedLabelsMoveTheSegmentationOnly) {
