@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "geometry/icp.hpp"
 #include "geometry/thickness.hpp"
@@ -22,6 +23,8 @@ constexpr int kIcpSteps = 5;
 constexpr double kLeastRms_m = 0.012;
 constexpr double kRmsPerSquareMetre = 0.0015;
 constexpr double kShareOfSize = 0.2;
+// What lies so many times as far from a cluster's middle as half of it is no part of it.
+constexpr float kStray = 4.0F;
 // Of a thing that moves more may come into view from one frame to the next.
 constexpr float kMostGrowth = 4.0F;
 // A thing makes way for a cluster where so much of what is measured of it is hidden by that, or
@@ -97,17 +100,53 @@ Eigen::Vector3f extents_of(std::span<Eigen::Vector3f const> points) {
       .cwiseSqrt();
 }
 
+float median_of(std::vector<float> values) {
+  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// Without what lies far from most of it: at its edge a cluster has pixels of what is behind it.
+std::vector<Eigen::Vector3f> without_strays(std::span<Eigen::Vector3f const> points) {
+  if (points.empty()) {
+    return {};
+  }
+  Eigen::Vector3f middle;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::vector<float> along;
+    along.reserve(points.size());
+    for (Eigen::Vector3f const& point : points) {
+      along.push_back(point[axis]);
+    }
+    middle[axis] = median_of(std::move(along));
+  }
+  std::vector<float> distances_m;
+  distances_m.reserve(points.size());
+  for (Eigen::Vector3f const& point : points) {
+    distances_m.push_back((point - middle).norm());
+  }
+  float const most_m = kStray * median_of(distances_m);
+  std::vector<Eigen::Vector3f> most;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (distances_m[i] <= most_m) {
+      most.push_back(points[i]);
+    }
+  }
+  return most;
+}
+
 /// RMS distance of the cluster from the thing's shape, once laid on it; none where they differ.
 std::optional<double> fit_of(StuffBelief const& item, SeenCluster const& cluster,
                              Eigen::Vector3d const& camera_world) {
-  std::vector<Eigen::Vector3f> const& known = item.latest().points_world;
+  std::vector<Eigen::Vector3f> const known = without_strays(item.latest().points_world);
+  std::vector<Eigen::Vector3f> const seen = without_strays(cluster.points_world);
   Eigen::Vector3f const from = mean_of(known);
-  Eigen::Vector3f const to = mean_of(cluster.points_world);
+  Eigen::Vector3f const to = mean_of(seen);
   if ((from - to).norm() > static_cast<float>(kFarthest_m)) {
     return std::nullopt;
   }
   Eigen::Vector3f const a = extents_of(known);
-  Eigen::Vector3f const b = extents_of(cluster.points_world);
+  Eigen::Vector3f const b = extents_of(seen);
   for (Eigen::Index i = 1; i < 3; ++i) {
     auto const [less, more] = std::minmax(a[i], b[i]);
     if (static_cast<double>(more) > kMostSizeRatio * static_cast<double>(less)) {
@@ -119,7 +158,7 @@ std::optional<double> fit_of(StuffBelief const& item, SeenCluster const& cluster
   double const noise_m = kRmsPerSquareMetre * (to.cast<double>() - camera_world).squaredNorm();
   config.max_rms_m =
       std::min(std::max(kLeastRms_m, noise_m), kShareOfSize * static_cast<double>(a.z()));
-  auto const fit = align_icp(centred(cluster.points_world, to), centred(known, from), config);
+  auto const fit = align_icp(centred(seen, to), centred(known, from), config);
   return fit ? std::optional(fit->rms_m) : std::nullopt;
 }
 
