@@ -314,6 +314,9 @@ private:
       double const most = places_.most_log_odds_at(clusters_[c].points_world);
       if (is_unexplained(c) && probability_of(most) >= config_.existence.min_probability) {
         add(c, std::min(most, log_odds_of_new(clusters_[c])));
+        if (has_arrived(clusters_[c])) {
+          count_arrival(known_.stuff.back());
+        }
       }
     }
   }

@@ -37,19 +37,16 @@ constexpr std::size_t kFewestLooks = 4;
 constexpr std::size_t kLooksRemembered = 36;
 // A thing has moved where so much of what the frame tells of it is seen through.
 constexpr double kMostThroughSeen = 0.35;
-// What has just come is not believed more.
-constexpr double kHardlyBelieved = 0.6;
 constexpr double kTimeOnItsWay_s = 0.5;
 
 bool moves_often(StuffBelief const& item) {
   return item.moved_share > kMovesOften;
 }
 
-/// Whether it arrived itself (BirthConfig::arrived_probability), a few looks ago, or was seen once
-/// alone: nothing says that it stands still.
+/// Whether it arrived itself, or moved, a few looks ago, or was seen once alone: nothing says that
+/// it stands still.
 bool has_just_come(StuffBelief const& item) {
-  return item.history_count == 1 ||
-         (item.history_count < kFewestLooks && probability_of(item.log_odds) < kHardlyBelieved);
+  return item.history_count == 1 || (item.history_count < kFewestLooks && item.moved_share > 0.0);
 }
 
 /// Whether a thing has left its place to a cluster that has come there: what it should show is
@@ -289,6 +286,10 @@ void count_look(StuffBelief& item, bool moved) {
 
 bool is_on_its_way(StuffBelief const& item) {
   return item.history_count >= kFewestLooks && moves_often(item);
+}
+
+void count_arrival(StuffBelief& item) {
+  item.moved_share = kMovesOften;
 }
 
 void lose_sight_of(StuffBelief& item, double elapsed_s, ExistenceConfig const& config) {

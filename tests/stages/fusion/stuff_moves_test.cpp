@@ -55,6 +55,16 @@ TEST(StuffMoves, WhatWasMovedKeepsItsNameThoughSomePixelsBehindItShowWithIt) {
   EXPECT_EQ(room.stuff()[0].label, kFirst);
 }
 
+// That it came says that it may go on, whatever is believed of it.
+TEST(StuffMoves, WhatHasJustComeIsFollowedHoweverMuchItIsBelieved) {
+  Room room(test::kWithSight, 0.97);
+  room.show({});
+  room.show({.boards = {person(-0.15, 2.0)}}, 2);
+  ASSERT_GT(probability_of(room.stuff()[0].log_odds), 0.8);
+  room.show({.boards = {person(-0.15, 1.8)}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
 // Without a look at its place before, it might have stood there unseen.
 TEST(StuffMoves, WhatComesIntoViewBeforeWhatIsLikeItIsNotThat) {
   Room room(test::kWithSight);
