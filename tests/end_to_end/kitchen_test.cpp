@@ -96,11 +96,11 @@ TEST(KitchenMagazines, AreNotTheTable) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Recording, Kitchen,
-                         testing::Values(Variant{"AsItIs", 1, std::nullopt, 12.0, 2},
-                                         Variant{"EveryThirdFrame", 3, std::nullopt, 20.0, 2},
-                                         Variant{"Backward", -2, std::nullopt, 15.0, 2},
-                                         Variant{"BehindARectangle", 2, 0.6F, 22.0, 2},
-                                         Variant{"WithoutDepthInARectangle", 2, 0.0F, 22.0, 2}),
+                         testing::Values(Variant{"AsItIs", 1, std::nullopt, 10.0, 2},
+                                         Variant{"EveryThirdFrame", 3, std::nullopt, 10.0, 2},
+                                         Variant{"Backward", -2, std::nullopt, 10.0, 2},
+                                         Variant{"BehindARectangle", 2, 0.6F, 10.0, 2},
+                                         Variant{"WithoutDepthInARectangle", 2, 0.0F, 10.0, 2}),
                          [](auto const& instance) { return instance.param.name; });
 
 }  // namespace

@@ -27,7 +27,7 @@ constexpr char const* kSeenThrough =
     "that 0.99; what is "
     "seen through goes within two looks, however long it was seen before.";
 constexpr char const* kBegins =
-    "what is seen for the first time is believed the more the thicker it is, with 0.55 at most "
+    "what is seen for the first time is believed the more the thicker it is, with 0.9 at most "
     "where nothing stood before; two looks make that 0.99.";
 constexpr char const* kScrapWins =
     "clusters match where each is the other's best by the sum of squared distances, and a scrap of "

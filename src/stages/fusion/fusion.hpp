@@ -98,8 +98,9 @@ FieldList fields(StuffFusionConfig& config);
 struct BirthConfig {
   double log_odds = -0.15;
   double per_log_thickness = 1.8;
-  /// At most, of what stands where the frame before saw through: it came, and may go again.
-  double arrived_probability = 0.55;
+  /// At most, of what stands where the frame before saw through: it may be a known object that was
+  /// moved there.
+  double arrived_probability = 0.9;
 };
 FieldList fields(BirthConfig& config);
 [[nodiscard]] double birth_log_odds(double thickness_blocks, bool arrived,

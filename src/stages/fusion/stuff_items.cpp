@@ -27,8 +27,11 @@
 namespace credo {
 namespace {
 
-// How much of a look is news that takes for something known what one look showed by itself.
+// How much of a look is news that takes for something known, or for another thing, what one look
+// alone showed by itself.
 constexpr double kOneToOne = 0.7;
+// Another thing: of what is so large alone. Of what is smaller a look says too little.
+constexpr int kLargeBlocks = 200;
 // Merging.
 constexpr double kLeastShown = 0.32;
 // A cluster that things explain by so much is none of its own.
@@ -272,8 +275,12 @@ private:
   /// Kept with the one that was known last, whichever shows in the other.
   [[nodiscard]] bool are_one(std::size_t j, std::size_t host) {
     std::uint32_t const first = known_.stuff[std::min(j, host)].id;
-    return shows_as_one(known_.stuff[std::max(j, host)], first,
-                        news_[j] * counts_as_one(look(j).blocks));
+    StuffBelief& last = known_.stuff[std::max(j, host)];
+    std::size_t const looks_before = last.history_count - (last.label ? 1U : 0U);
+    bool const one_to_one =
+        looks_before == 1 && last.one_with.empty() && look(j).blocks >= kLargeBlocks;
+    double const news = one_to_one ? std::max(news_[j], kOneToOne) : news_[j];
+    return shows_as_one(last, first, news * counts_as_one(look(j).blocks));
   }
 
   /// Of a thing that is hardly in view nothing is learnt about what it is one with.
@@ -307,6 +314,9 @@ private:
       double const most = places_.most_log_odds_at(clusters_[c].points_world);
       if (is_unexplained(c) && probability_of(most) >= config_.existence.min_probability) {
         add(c, std::min(most, log_odds_of_new(clusters_[c])));
+        if (has_arrived(clusters_[c])) {
+          count_arrival(known_.stuff.back());
+        }
       }
     }
   }

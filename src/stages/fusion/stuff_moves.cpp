@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "geometry/icp.hpp"
 #include "geometry/thickness.hpp"
@@ -22,6 +23,8 @@ constexpr int kIcpSteps = 5;
 constexpr double kLeastRms_m = 0.012;
 constexpr double kRmsPerSquareMetre = 0.0015;
 constexpr double kShareOfSize = 0.2;
+// What lies so many times as far from a cluster's middle as half of it is no part of it.
+constexpr float kStray = 4.0F;
 // Of a thing that moves more may come into view from one frame to the next.
 constexpr float kMostGrowth = 4.0F;
 // A thing makes way for a cluster where so much of what is measured of it is hidden by that, or
@@ -34,19 +37,16 @@ constexpr std::size_t kFewestLooks = 4;
 constexpr std::size_t kLooksRemembered = 36;
 // A thing has moved where so much of what the frame tells of it is seen through.
 constexpr double kMostThroughSeen = 0.35;
-// What has just come is not believed more.
-constexpr double kHardlyBelieved = 0.6;
 constexpr double kTimeOnItsWay_s = 0.5;
 
 bool moves_often(StuffBelief const& item) {
   return item.moved_share > kMovesOften;
 }
 
-/// Whether it arrived itself (BirthConfig::arrived_probability), a few looks ago, or was seen once
-/// alone: nothing says that it stands still.
+/// Whether it arrived itself, or moved, a few looks ago, or was seen once alone: nothing says that
+/// it stands still.
 bool has_just_come(StuffBelief const& item) {
-  return item.history_count == 1 ||
-         (item.history_count < kFewestLooks && probability_of(item.log_odds) < kHardlyBelieved);
+  return item.history_count == 1 || (item.history_count < kFewestLooks && item.moved_share > 0.0);
 }
 
 /// Whether a thing has left its place to a cluster that has come there: what it should show is
@@ -97,17 +97,53 @@ Eigen::Vector3f extents_of(std::span<Eigen::Vector3f const> points) {
       .cwiseSqrt();
 }
 
+float median_of(std::vector<float> values) {
+  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// Without what lies far from most of it: at its edge a cluster has pixels of what is behind it.
+std::vector<Eigen::Vector3f> without_strays(std::span<Eigen::Vector3f const> points) {
+  if (points.empty()) {
+    return {};
+  }
+  Eigen::Vector3f middle;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::vector<float> along;
+    along.reserve(points.size());
+    for (Eigen::Vector3f const& point : points) {
+      along.push_back(point[axis]);
+    }
+    middle[axis] = median_of(std::move(along));
+  }
+  std::vector<float> distances_m;
+  distances_m.reserve(points.size());
+  for (Eigen::Vector3f const& point : points) {
+    distances_m.push_back((point - middle).norm());
+  }
+  float const most_m = kStray * median_of(distances_m);
+  std::vector<Eigen::Vector3f> most;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (distances_m[i] <= most_m) {
+      most.push_back(points[i]);
+    }
+  }
+  return most;
+}
+
 /// RMS distance of the cluster from the thing's shape, once laid on it; none where they differ.
 std::optional<double> fit_of(StuffBelief const& item, SeenCluster const& cluster,
                              Eigen::Vector3d const& camera_world) {
-  std::vector<Eigen::Vector3f> const& known = item.latest().points_world;
+  std::vector<Eigen::Vector3f> const known = without_strays(item.latest().points_world);
+  std::vector<Eigen::Vector3f> const seen = without_strays(cluster.points_world);
   Eigen::Vector3f const from = mean_of(known);
-  Eigen::Vector3f const to = mean_of(cluster.points_world);
+  Eigen::Vector3f const to = mean_of(seen);
   if ((from - to).norm() > static_cast<float>(kFarthest_m)) {
     return std::nullopt;
   }
   Eigen::Vector3f const a = extents_of(known);
-  Eigen::Vector3f const b = extents_of(cluster.points_world);
+  Eigen::Vector3f const b = extents_of(seen);
   for (Eigen::Index i = 1; i < 3; ++i) {
     auto const [less, more] = std::minmax(a[i], b[i]);
     if (static_cast<double>(more) > kMostSizeRatio * static_cast<double>(less)) {
@@ -119,7 +155,7 @@ std::optional<double> fit_of(StuffBelief const& item, SeenCluster const& cluster
   double const noise_m = kRmsPerSquareMetre * (to.cast<double>() - camera_world).squaredNorm();
   config.max_rms_m =
       std::min(std::max(kLeastRms_m, noise_m), kShareOfSize * static_cast<double>(a.z()));
-  auto const fit = align_icp(centred(cluster.points_world, to), centred(known, from), config);
+  auto const fit = align_icp(centred(seen, to), centred(known, from), config);
   return fit ? std::optional(fit->rms_m) : std::nullopt;
 }
 
@@ -250,6 +286,10 @@ void count_look(StuffBelief& item, bool moved) {
 
 bool is_on_its_way(StuffBelief const& item) {
   return item.history_count >= kFewestLooks && moves_often(item);
+}
+
+void count_arrival(StuffBelief& item) {
+  item.moved_share = kMovesOften;
 }
 
 void lose_sight_of(StuffBelief& item, double elapsed_s, ExistenceConfig const& config) {

@@ -67,6 +67,10 @@ struct Move {
 /// before.
 [[nodiscard]] bool has_moved(PointCounts const& look);
 
+/// Of what is seen first, where the frame before saw through: it came there, which by itself makes
+/// nothing that is on its way.
+void count_arrival(StuffBelief& item);
+
 /// One more look that showed the thing, and whether it had moved since the one before.
 void count_look(StuffBelief& item, bool moved);
 

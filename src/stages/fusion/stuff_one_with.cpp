@@ -15,7 +15,7 @@ constexpr double kEnoughToMerge = 1.4;
 constexpr double kOfOneTogether = 2.5;
 constexpr double kOfOneApart = 0.5;
 constexpr double kLongAlone = 1.0;
-constexpr double kInsideOfLarge = 0.625;
+constexpr double kInsideOfHundred = 0.625;
 
 OneWith& entry_of(StuffBelief& item, std::uint32_t id, double at_first) {
   auto const found = std::ranges::find(item.one_with, id, &OneWith::id);
@@ -49,7 +49,7 @@ double counts_as_one(int blocks) {
   // As if it were a square: of that, what is not at its edge.
   double const across = std::sqrt(static_cast<double>(blocks));
   double const inside = std::max(0.0, across - 2.0) / std::max(1.0, across);
-  return std::min(1.0, inside * inside / kInsideOfLarge);
+  return inside * inside / kInsideOfHundred;
 }
 
 bool shows_as_one(StuffBelief& item, std::uint32_t id, double news) {

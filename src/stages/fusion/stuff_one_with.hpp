@@ -12,9 +12,9 @@ namespace credo {
 /// Stands for floor, walls and known objects in StuffBelief::one_with; no thing's id.
 inline constexpr std::uint32_t kKnownThings = 0;
 
-/// How much a look says about two being one, of which one shows in so many blocks, in [0, 1]: the
-/// less the smaller it is, for blocks at its edge may be taken for either. What shows in a hundred
-/// counts in full, in 25 by little more than half, in 4 and fewer not at all.
+/// How much a look says about two being one, of which one shows in so many blocks: the less the
+/// smaller it is, for blocks at its edge may be taken for either. What shows in a hundred counts in
+/// full, in 25 by little more than half, in 4 and fewer not at all; what is larger by up to 1.6.
 [[nodiscard]] double counts_as_one(int blocks);
 
 /// Adds a look in which `item` showed in another thing's clusters to what says that the two are

@@ -46,7 +46,7 @@ enum RoomKind : std::uint8_t { kWithoutSight, kWithSight };
 /// A belief that is shown one view after the other, at 30 Hz.
 class Room {
 public:
-  /// Whatever is seen first is believed with `born`, but what arrives with 0.55 at most.
+  /// Whatever is seen first is believed with `born`, but what arrives with 0.9 at most.
   explicit Room(RoomKind kind = kWithoutSight, double born = 0.7) : kind_(kind) {
     config_.births = {.log_odds = log_odds_of(born), .per_log_thickness = 0.0};
   }

@@ -46,6 +46,25 @@ TEST(StuffMoves, WhatComesNearerKeepsItsNameAndHidesNothing) {
   EXPECT_GT(probability_of(room.stuff()[0].log_odds), 0.7);
 }
 
+// At its new place's edge the cluster has some pixels of what is far behind.
+TEST(StuffMoves, WhatWasMovedKeepsItsNameThoughSomePixelsBehindItShowWithIt) {
+  Room room(test::kWithSight);
+  room.show({.boards = {{kFirst, -0.25, 0.0}}}, 4);
+  room.show({.boards = {{kFirst, 0.1, 0.0}, {kFirst, 0.62, 0.1, 0.06, 0.06, 2.9}}});
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
+  EXPECT_EQ(room.stuff()[0].label, kFirst);
+}
+
+// That it came says that it may go on, whatever is believed of it.
+TEST(StuffMoves, WhatHasJustComeIsFollowedHoweverMuchItIsBelieved) {
+  Room room(test::kWithSight, 0.97);
+  room.show({});
+  room.show({.boards = {person(-0.15, 2.0)}}, 2);
+  ASSERT_GT(probability_of(room.stuff()[0].log_odds), 0.8);
+  room.show({.boards = {person(-0.15, 1.8)}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
 // Without a look at its place before, it might have stood there unseen.
 TEST(StuffMoves, WhatComesIntoViewBeforeWhatIsLikeItIsNotThat) {
   Room room(test::kWithSight);

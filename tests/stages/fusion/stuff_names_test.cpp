@@ -69,7 +69,7 @@ TEST(StuffItems, WhatShowedInTwoForLongStaysTwoForLonger) {
   Board const left{kFirst, 0.0, 0.0, 0.12, 0.2};
   Board const right{kSecond, 0.12, 0.0, 0.08, 0.2};
   room.show({.boards = {left, right}}, 30);
-  room.show({.boards = {{kFirst}}}, 7);
+  room.show({.boards = {{kFirst}}}, 6);
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
   room.show({.boards = {{kFirst}}}, 2);
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
@@ -89,7 +89,34 @@ TEST(StuffItems, WhatIsSmallBecomesOneLater) {
   EXPECT_EQ(counts_as_one(0), 0.0);
   EXPECT_EQ(counts_as_one(4), 0.0);
   EXPECT_NEAR(counts_as_one(25), 0.576, 1e-12);
-  EXPECT_EQ(counts_as_one(100), 1.0);
+  EXPECT_NEAR(counts_as_one(100), 1.024, 1e-12);
+  EXPECT_NEAR(counts_as_one(400), 1.296, 1e-12);
+}
+
+// Of what is large it tells more.
+TEST(StuffItems, WhatIsLargeBecomesOneSooner) {
+  Room room;
+  Board const left{kFirst, 0.0, 0.0, 0.2, 0.2};
+  Board const right{kSecond, 0.2, 0.0, 0.2, 0.2};
+  Board const both{kFirst, 0.0, 0.0, 0.4, 0.2};
+  room.show({.boards = {left, right}}, 2);
+  room.show({.boards = {both}}, 3);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {both}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
+// One look against one, if what it shows is large.
+TEST(StuffItems, WhatOneLookAloneShowedInTwoBecomesOneAtOnceIfItIsLarge) {
+  for (double const height_m : {0.06, 0.2}) {
+    Room room;
+    Board const left{kFirst, 0.0, 0.0, 0.2, height_m};
+    Board const right{kSecond, 0.2, 0.0, 0.2, height_m};
+    room.show({.boards = {left, right}});
+    ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+    room.show({.boards = {{kFirst, 0.0, 0.0, 0.4, height_m}}});
+    EXPECT_EQ(room.ids().size(), height_m > 0.1 ? 1U : 2U);
+  }
 }
 
 // A segmentation that cannot decide shows one thing; one that errs now and then shows two.
