@@ -100,7 +100,10 @@ INSTANTIATE_TEST_SUITE_P(Recording, Kitchen,
                                          Variant{"EveryThirdFrame", 3, std::nullopt, 10.0, 2},
                                          Variant{"Backward", -2, std::nullopt, 10.0, 2},
                                          Variant{"BehindARectangle", 2, 0.6F, 10.0, 2},
-                                         Variant{"WithoutDepthInARectangle", 2, 0.0F, 10.0, 2}),
+                                         Variant{"WithoutDepthInARectangle", 2, 0.0F, 10.0, 2},
+                                         Variant{"EachFrameBehindARectangle", 1, 0.6F, 10.0, 2},
+                                         Variant{"EachFrameWithoutDepthInARectangle", 1, 0.0F, 10.0,
+                                                 2}),
                          [](auto const& instance) { return instance.param.name; });
 
 }  // namespace

@@ -169,7 +169,8 @@ private:
     // Things in it stay apart.
     Labels inside = found;
     std::erase_if(inside, [&](std::int32_t part) { return bend_quanta({part}) < kBulging_quanta; });
-    if (lies_within(inside, found, outside) && bend_quanta(inside) > kHollow_quanta) {
+    if (lies_within(inside, found, outside) && bend_quanta(inside) > kHollow_quanta &&
+        !is_far_behind(inside, outside)) {
       for (std::int32_t const part : inside) {
         join(outside, part);
       }
@@ -227,6 +228,32 @@ private:
              (box.last.u == last_u && front.last.u < last_u) ||
              (box.last.v == last_v && front.last.v < last_v);
     });
+  }
+
+  /// Whether some segments are farther behind `outside` than all of them together are large: a
+  /// vessel is as deep as it is wide, and what something else hides the foot of is not its inside.
+  [[nodiscard]] bool is_far_behind(Labels const& inside, std::int32_t outside) const {
+    double pixels = outline(outside).pixels;
+    for (std::int32_t const part : inside) {
+      pixels += outline(part).pixels;
+    }
+    double const front_m = mean_depth_m({outside});
+    double const size_m = std::sqrt(pixels) / intrinsics_.fx_px * front_m;
+    return mean_depth_m(inside) - front_m > size_m;
+  }
+
+  [[nodiscard]] double mean_depth_m(Labels const& parts) const {
+    double sum_m = 0.0;
+    double pixels = 0.0;
+    for (std::int32_t const part : parts) {
+      for_runs(part, outline(part).box, [&](int v, int begin, int end) {
+        for (int u = begin; u < end; ++u) {
+          sum_m += static_cast<double>(depth_m_[Pixel{u, v}]);
+        }
+        pixels += end - begin;
+      });
+    }
+    return sum_m / std::max(1.0, pixels);
   }
 
   /// How a surface bends over its size: of the quadratic that fits its inverse depth, the second

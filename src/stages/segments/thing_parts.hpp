@@ -11,9 +11,10 @@
 namespace credo {
 
 /// Joins the parts of one thing that a crease or a jump of depth holds apart:
-/// - the inside of a vessel and its outside: what lies behind nothing but one segment, before
-///   something else (the rim's far side), touches nothing else and is hollow; where the image's
-///   border cuts it off, other than at the top, it cuts off the outside, too;
+/// - the inside of a vessel and its outside: what lies behind nothing but one segment, no farther
+///   than both are large, before something else (the rim's far side), touches nothing else and is
+///   hollow; where the image's border cuts it off, other than at the top, it cuts off the outside,
+///   too;
 /// - what sticks out of one thing, is less than a quarter of it and touches nothing else: handle,
 ///   cap, neck. What stands on a level surface does not stick out of it, so without
 ///   `up_camera` (unit vector, camera frame) none of these join.

@@ -164,10 +164,13 @@ double front(Pixel) {
 double flat_inside(Pixel) {
   return 1.1;
 }
-/// Deepest in the middle: it bends by 30 quanta to its ends.
+/// Deepest in the middle: it bends by 30 quanta to its ends, 40 pixels away.
+double hollow(double from_middle_px, double deepest_m) {
+  double const from_middle = from_middle_px / 40.0;
+  return 1.0 / (1.0 / deepest_m + 30.0 * 0.00287 * from_middle * from_middle);
+}
 double hollow_inside(Pixel p) {
-  double const from_middle = (p.u - 99.5) / 40.0;
-  return 1.0 / (1.0 / 1.12 + 30.0 * 0.00287 * from_middle * from_middle);
+  return hollow(p.u - 99.5, 1.12);
 }
 
 /// A vessel's front, and what is seen over it.
@@ -190,11 +193,6 @@ TEST(JoinParts, AnInsideIsHollowNotTooLargeAndBehindNothingElse) {
 
 // Beneath a table the floor goes on to the border, and the table does not.
 TEST(JoinParts, AnInsideIsNotCutOffBesideItsOutside) {
-  auto const hollow_about = [](double middle_u) {
-    return [middle_u](Pixel p) {
-      return hollow_inside({p.u + 99 - static_cast<int>(middle_u), 0});
-    };
-  };
   struct Case {
     char const* name;
     Pixel first;
@@ -214,9 +212,21 @@ TEST(JoinParts, AnInsideIsNotCutOffBesideItsOutside) {
            Case{"top, where its outside is not", {60, 0}, {140, 20}, {60, 20}, {140, 50}, true},
        }) {
     Schematic picture;
-    picture.add(c.front_first, c.front_last, [](Pixel) { return 0.9; });
-    picture.add(c.first, c.last, hollow_about((c.first.u + c.last.u) / 2.0));
+    picture.add(c.front_first, c.front_last, [](Pixel) { return 0.93; });
+    double const middle_u = (c.first.u + c.last.u) / 2.0;
+    picture.add(c.first, c.last, [&](Pixel p) { return hollow(p.u - middle_u, 1.05); });
     EXPECT_EQ(picture.joins(std::nullopt), c.joins) << c.name;
+  }
+}
+
+// What something near hides the foot of has nothing else before it either.
+TEST(JoinParts, AnInsideIsNotFartherBehindItsOutsideThanBothAreLarge) {
+  // 63 pixels are 12 cm at 1 m.
+  for (auto const& [deepest_m, joins] : {std::pair(1.12, true), std::pair(1.25, false)}) {
+    Schematic picture;
+    picture.add({60, 70}, {140, 100}, front);
+    picture.add({60, 50}, {140, 70}, [&, d = deepest_m](Pixel p) { return hollow(p.u - 99.5, d); });
+    EXPECT_EQ(picture.joins(std::nullopt), joins) << deepest_m;
   }
 }
 
