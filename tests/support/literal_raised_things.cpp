@@ -122,27 +122,51 @@ private:
       if (seen[first] != 0 || heights_[first] <= kLevels.at(level)) {
         continue;
       }
-      Pixels piece = grown(first, level, seen);
+      Pixels piece = grown(first, kLevels.at(level), seen);
       std::ranges::sort(piece);
       bool const is_high = std::ranges::any_of(piece, [&](auto i) { return heights_[i] >= 1.0F; });
       if (piece.size() < least_px_ || !is_high) {
         continue;
       }
       if (is_thing(piece, level)) {
-        found_.push_back(upper_half(piece));
+        add(upper_half(piece));
       } else if (level + 1 < kLevels.size()) {
         look(piece, level + 1);
       }
     }
   }
 
-  [[nodiscard]] Pixels grown(std::size_t first, std::size_t level, Grid<char>& seen) const {
+  /// Its connected parts of at least a fifth of the largest one, if these are two or more.
+  void add(Pixels const& high) {
+    Grid<char> out(labels_.width(), labels_.height(), 1);
+    for (std::size_t const i : high) {
+      out[i] = 0;
+    }
+    std::vector<Pixels> parts;
+    std::size_t most = 0;
+    for (std::size_t const first : high) {
+      if (out[first] == 0) {
+        parts.push_back(grown(first, 0.0F, out));
+        std::ranges::sort(parts.back());
+        most = std::max(most, parts.back().size());
+      }
+    }
+    std::erase_if(parts, [&](Pixels const& part) {
+      return part.size() < least_px_ || 5 * part.size() < most;
+    });
+    if (parts.size() < 2) {
+      parts = {high};
+    }
+    found_.insert(found_.end(), parts.begin(), parts.end());
+  }
+
+  [[nodiscard]] Pixels grown(std::size_t first, float higher_than, Grid<char>& seen) const {
     Pixels piece = {first};
     seen[first] = 1;
     for (std::size_t i = 0; i < piece.size(); ++i) {
       for (Pixel const q : neighbours(labels_.pixel(piece[i]))) {
         if (labels_.contains(q) && labels_[q] == labels_[first] && seen[q] == 0 &&
-            heights_[q] > kLevels.at(level)) {
+            heights_[q] > higher_than) {
           seen[q] = 1;
           piece.push_back(labels_.index(q));
         }
@@ -203,7 +227,7 @@ private:
 
   [[nodiscard]] Pixels upper_half(Pixels piece) const {
     float const least = 0.5F * middle_height(piece);
-    std::erase_if(piece, [&](std::size_t i) { return heights_[i] < least; });
+    std::erase_if(piece, [&](std::size_t i) { return heights_[i] <= least; });
     return piece;
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,6 +31,9 @@ constexpr std::array<float, 4> kLevels = {0.5F, 0.75F, 1.0F, 1.5F};
 /// A thing has an edge; what a sensor bends has none. Sensors blur edges: of what is half as high
 /// again as it must be, they are looked for over more pixels, too (at the reference focal length).
 constexpr double kLeastStep = 1.0;
+/// Of a piece that comes apart at half its height, as pixels of the largest part: what is less than
+/// that is no thing of its own.
+constexpr double kLeastOfLargest = 0.2;
 constexpr float kClearlyHigh = 1.5F;
 constexpr int kAway_px = 2;
 constexpr double kBlurred_px = 5.0;
@@ -90,11 +94,13 @@ std::vector<std::size_t> first_of_each(Runs const& runs) {
   return parents;
 }
 
-/// A thing: of a connected piece, what is as high as this.
-struct Raised {
-  Runs piece;
-  float least = 0.0F;
-};
+std::size_t pixels_of(Runs const& runs) {
+  std::size_t pixels = 0;
+  for (Run const& run : runs) {
+    pixels += static_cast<std::size_t>(run.end - run.begin);
+  }
+  return pixels;
+}
 
 class RaisedFinder {
 public:
@@ -108,7 +114,7 @@ public:
         blurred_px_(std::max(1, static_cast<int>(std::lround(kBlurred_px * scale)))) {}
 
   /// In the order of their first pixels, those of one piece together.
-  std::vector<Raised> found() && {
+  std::vector<Runs> found() && {
     look(high_runs(), 0);
     return std::move(found_);
   }
@@ -151,11 +157,27 @@ private:
         continue;
       }
       if (is_thing(piece)) {
-        float const least = 0.5F * middle_height(piece);
-        found_.push_back({std::move(piece), least});
+        add(higher(piece, 0.5F * middle_height(piece)));
       } else if (level + 1 < kLevels.size()) {
         look(higher(piece, kLevels[level + 1]), level + 1);
       }
+    }
+  }
+
+  /// What is between two things may be as high as the level that they were found at.
+  void add(Runs&& high) {
+    std::vector<Runs> parts = large_pieces(high);
+    std::size_t most_px = 0;
+    for (Runs const& part : parts) {
+      most_px = std::max(most_px, pixels_of(part));
+    }
+    std::erase_if(parts, [&](Runs const& part) {
+      return static_cast<double>(pixels_of(part)) < kLeastOfLargest * static_cast<double>(most_px);
+    });
+    if (parts.size() < 2) {
+      found_.push_back(std::move(high));
+    } else {
+      std::ranges::move(parts, std::back_inserter(found_));
     }
   }
 
@@ -331,24 +353,8 @@ private:
   std::size_t least_px_;
   int rim_px_;
   int blurred_px_;
-  std::vector<Raised> found_;
+  std::vector<Runs> found_;
 };
-
-/// Makes it a segment of its own, and tells of how many pixels.
-std::uint32_t take_off(Raised const& raised, PaddedGrid<float> const& heights, std::int32_t label,
-                       Grid<std::int32_t>& labels) {
-  std::uint32_t pixels = 0;
-  for (Run const& run : raised.piece) {
-    float const* const row = heights.row(run.v);
-    for (int u = run.begin; u < run.end; ++u) {
-      if (row[u] >= raised.least) {
-        labels[Pixel{u, run.v}] = label;
-        ++pixels;
-      }
-    }
-  }
-  return pixels;
-}
 
 }  // namespace
 
@@ -359,10 +365,13 @@ Segments with_raised_things(Segments segments, Grid<float> const& depth_m, doubl
       static_cast<std::size_t>(std::max(1.0, std::round(config.raised_min_pixels * scale * scale)));
   PaddedGrid<float> const heights = segments::relief(segments, depth_m, focal_px, config);
   segments.lies_on.assign(segments.pixel_counts.size(), 0);
-  for (Raised const& raised : RaisedFinder(segments, heights, least_px, scale).found()) {
-    std::int32_t const base = raised.piece.front().label;
+  for (Runs const& raised : RaisedFinder(segments, heights, least_px, scale).found()) {
+    std::int32_t const base = raised.front().label;
     auto const label = static_cast<std::int32_t>(segments.pixel_counts.size() + 1);
-    std::uint32_t const pixels = take_off(raised, heights, label, segments.labels);
+    for (Run const& run : raised) {
+      std::fill_n(segments.labels.row(run.v).begin() + run.begin, run.end - run.begin, label);
+    }
+    auto const pixels = static_cast<std::uint32_t>(pixels_of(raised));
     segments.pixel_counts[static_cast<std::size_t>(base - 1)] -= pixels;
     segments.pixel_counts.push_back(pixels);
     segments.lies_on.push_back(base);

@@ -122,6 +122,18 @@ TEST(StuffMoves, WhatWasSeenOnceMayHaveCome) {
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
 }
 
+// It has stood there all the time, though one look alone showed it by itself.
+TEST(StuffMoves, WhatShowedInOneWithSomethingElseSinceHasNotJustCome) {
+  for (int const looks_as_one : {0, 2}) {
+    Room room(test::kWithSight);
+    room.show({.boards = {{kFirst, -0.4, 0.0, 0.4, 0.12}, {kSecond, 0.0, 0.0, 0.1, 0.12}}});
+    room.show({.boards = {{kFirst, -0.4, 0.0, 0.5, 0.12}}}, looks_as_one);
+    ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+    room.show({.boards = {{kFirst, -0.4, 0.0, 0.4, 0.12}, {kSecond, 0.0, 0.0, 0.1, 0.12, 1.35}}});
+    EXPECT_EQ(room.ids().size(), looks_as_one > 0 ? 3U : 2U);
+  }
+}
+
 // Where the frame before could not see: at the edge of the image, for one.
 TEST(StuffMoves, WhatIsOnItsWayIsFollowedToWhereNobodySaw) {
   Room room(test::kWithSight);

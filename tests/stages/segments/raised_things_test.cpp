@@ -112,6 +112,24 @@ TEST(RaisedThings, ARimIsNone) {
   }
 }
 
+// Between magazines side by side the surface may stand out as well, by more than the least level.
+TEST(RaisedThings, WhatComesApartAtHalfItsHeightIsTwo) {
+  auto const raised_with = [](int width_px) {
+    Segments segments;
+    segments.labels = Grid<std::int32_t>(640, 480, 1);
+    segments.pixel_counts = {640 * 480};
+    Grid<float> const depth_m = depth_of_quanta(640, 480, [&](Pixel p) {
+      if (std::abs(p.v - 240) >= 30 || p.u < 200 || p.u >= 306 + width_px) {
+        return 250.0;
+      }
+      return p.u >= 300 && p.u < 306 ? 251.2 : 253.0;
+    });
+    return raised_in(with_raised_things(std::move(segments), depth_m, 525.0, {}));
+  };
+  EXPECT_THAT(raised_with(100), ElementsAre(2, 3));
+  EXPECT_THAT(raised_with(15), ElementsAre(2)) << "less than a fifth of it";
+}
+
 TEST(RaisedThings, OnABentSurfaceTheyAreFoundAllTheSame) {
   Grid<float> const depth_m = depth_of_quanta(640, 480, [](Pixel p) {
     double const u = (p.u - 320) / 80.0;
