@@ -82,12 +82,14 @@ def main():
     path.write_text(yaml.safe_dump(scene, default_flow_style=None, width=1000))
     prior = ROOT / "scenes/priors" / (arguments.scene + ".yaml")
     known = ["--prior", prior, "--set", "detector.kind=sim"] if prior.exists() else []
-    process = subprocess.Popen([arguments.credo, "run", "--source", f"sim:{path}", "--no-dds", "--out",
-                                arguments.out / "run", *known],
-                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    samples = watch(process, arguments.out / "run/belief.jsonl")
+    log = arguments.out / "log.txt"
+    with log.open("w") as said:  # no pipe: nobody reads while it runs, and a full one stops it
+        process = subprocess.Popen([arguments.credo, "run", "--source", f"sim:{path}", "--no-dds", "--out",
+                                    arguments.out / "run", *known],
+                                   stdout=subprocess.DEVNULL, stderr=said)
+        samples = watch(process, arguments.out / "run/belief.jsonl")
     if process.wait() != 0:
-        sys.exit(process.stderr.read())
+        sys.exit(log.read_text()[-2000:])
     print(f"{arguments.laps} laps, {frames} frames\n\n| of the frames | things | MB |\n|---|---|---|")
     for tenth in range(10):
         part = [(things, memory) for frame, things, memory in samples

@@ -1,6 +1,9 @@
 #include "graph/process_usage.hpp"
 
 #include <sys/resource.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <fstream>
 #include <sstream>
@@ -34,6 +37,12 @@ double resident_mb() {
 
 double peak_resident_mb() {
   return status_mb("VmHWM:");
+}
+
+void give_back_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 double cpu_seconds() {
