@@ -280,7 +280,8 @@ private:
     bool const one_to_one =
         looks_before == 1 && last.one_with.empty() && look(j).blocks >= kLargeBlocks;
     double const news = one_to_one ? std::max(news_[j], kOneToOne) : news_[j];
-    return shows_as_one(last, first, news * counts_as_one(look(j).blocks));
+    return shows_as_one(last, first, news * counts_as_one(look(j).blocks),
+                        std::max(look(j).blocks, look(host).blocks));
   }
 
   /// Of a thing that is hardly in view nothing is learnt about what it is one with.

@@ -15,6 +15,9 @@ constexpr double kEnoughToMerge = 1.4;
 constexpr double kOfOneTogether = 2.5;
 constexpr double kOfOneApart = 0.5;
 constexpr double kLongAlone = 1.0;
+// The same of what shows in fewer blocks than that: several small things often show as one.
+constexpr int kSmallBlocks = 100;
+constexpr double kLongAloneOfSmall = 2.5;
 constexpr double kInsideOfHundred = 0.625;
 
 OneWith& entry_of(StuffBelief& item, std::uint32_t id, double at_first) {
@@ -28,6 +31,17 @@ double total_weight(StuffModel const& model) {
     sum += static_cast<double>(point.weight);
   }
   return sum;
+}
+
+/// Of what is small in the image the looks that told it from others: its points are too few, and
+/// too often new, to tell how often it was seen.
+double evidence_at_first(StuffBelief const& item, int blocks) {
+  auto const most = static_cast<double>(kMostWeight);
+  if (blocks < kSmallBlocks) {
+    return -kLongAloneOfSmall * std::min(most, static_cast<double>(item.history_count)) / most;
+  }
+  double const points = static_cast<double>(std::max<std::size_t>(item.model->points.size(), 1));
+  return -kLongAlone * total_weight(*item.model) / points / most;
 }
 
 /// Of the points that agree and of which the rest holds.
@@ -52,10 +66,8 @@ double counts_as_one(int blocks) {
   return inside * inside / kInsideOfHundred;
 }
 
-bool shows_as_one(StuffBelief& item, std::uint32_t id, double news) {
-  double const points = static_cast<double>(std::max<std::size_t>(item.model->points.size(), 1));
-  double const looks = total_weight(*item.model) / points;
-  OneWith& entry = entry_of(item, id, -kLongAlone * looks / kMostWeight);
+bool shows_as_one(StuffBelief& item, std::uint32_t id, double news, int blocks) {
+  OneWith& entry = entry_of(item, id, evidence_at_first(item, blocks));
   entry.evidence += kOfOneTogether * news;
   return entry.evidence > kEnoughToMerge;
 }

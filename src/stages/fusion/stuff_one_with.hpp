@@ -18,9 +18,10 @@ inline constexpr std::uint32_t kKnownThings = 0;
 [[nodiscard]] double counts_as_one(int blocks);
 
 /// Adds a look in which `item` showed in another thing's clusters to what says that the two are
-/// one; whether that is enough. `news` is how much of the look counts (novelty). What showed alone
-/// in many looks before takes longer to become one with another: it begins below nothing.
-[[nodiscard]] bool shows_as_one(StuffBelief& item, std::uint32_t id, double news);
+/// one; whether that is enough. `news` is how much of the look counts (novelty), `blocks` in how
+/// many the larger of the two shows. What showed alone in many looks before takes longer to become
+/// one with another: it begins below nothing, farther where both show in less than a hundred.
+[[nodiscard]] bool shows_as_one(StuffBelief& item, std::uint32_t id, double news, int blocks);
 
 /// The same in which it showed as floor, wall or known object.
 [[nodiscard]] bool shows_as_known(StuffBelief& item, double news);

@@ -10,8 +10,10 @@
 namespace credo {
 namespace {
 
-/// Looks, as far as they are news, and points of a cluster that must have had so many.
+/// Looks, as far as they are news: of single points that are another thing's, and of a cluster that
+/// is a thing of its own; and its points that must have had so many.
 constexpr float kEnoughLooks = 3.0F;
+constexpr float kEnoughOfPart = 2.0F;
 constexpr double kShareOfPart = 0.6;
 constexpr int kLeastPoints = 8;
 /// One look that shows a point in the thing's main cluster undoes so many that do not.
@@ -23,6 +25,30 @@ constexpr float kMissedLessAgreeing = 0.5F;
 
 bool is_one_of(LabelCode label, std::span<LabelCode const> labels) {
   return std::ranges::find(labels, label) != labels.end();
+}
+
+/// What of a piece was never seen before counts as the rest of it does. As the camera comes nearer,
+/// and with noise, so much of it is new in each frame that it would not be seen to be apart.
+void count_new_with_the_rest(StuffModel& model, StuffLook const& look, LabelMap const& shown,
+                             LabelCode piece) {
+  float sum = 0.0F;
+  float count = 0.0F;
+  std::vector<std::size_t> fresh;
+  for (std::size_t p = 0; p < model.points.size(); ++p) {
+    if (look.points[p].state != PointState::kAgrees ||
+        shown[static_cast<std::size_t>(look.points[p].block)] != piece) {
+      continue;
+    }
+    if (model.points[p].weight > 1.0F) {
+      sum += model.points[p].apart;
+      count += 1.0F;
+    } else {
+      fresh.push_back(p);
+    }
+  }
+  for (std::size_t const p : fresh) {
+    model.points[p].apart = std::max(model.points[p].apart, sum / std::max(count, 1.0F));
+  }
 }
 
 }  // namespace
@@ -45,6 +71,11 @@ void count_misses(StuffModel& model, StuffLook const& look, LabelMap const& show
 SplitModel split_model(StuffModel model, StuffLook const& look, LabelMap const& shown,
                        LabelCode main, std::span<LabelCode const> labels, double news) {
   auto const more = static_cast<float>(news);
+  for (LabelCode const label : labels) {
+    if (label != main) {
+      count_new_with_the_rest(model, look, shown, label);
+    }
+  }
   std::vector<LabelCode> shown_as(model.points.size(), kNoDepth);
   std::vector<std::uint8_t> gone(model.points.size(), 0);
   for (std::size_t p = 0; p < model.points.size(); ++p) {
@@ -69,7 +100,7 @@ SplitModel split_model(StuffModel model, StuffLook const& look, LabelMap const& 
     for (std::size_t p = 0; p < model.points.size(); ++p) {
       bool const here = shown_as[p] == label;
       points += here ? 1 : 0;
-      apart += here && model.points[p].apart > kEnoughLooks ? 1 : 0;
+      apart += here && model.points[p].apart > kEnoughOfPart ? 1 : 0;
     }
     if (label == main || points < kLeastPoints || apart <= kShareOfPart * points) {
       continue;

@@ -50,6 +50,17 @@ TEST(StuffItems, WhatShowsInTwoForLongBecomesTwo) {
   EXPECT_GE(room.stuff()[1].log_odds, believed);
 }
 
+// Though more and more of the piece is seen, of which nothing was to be seen before.
+TEST(StuffItems, WhatShowsInTwoBecomesTwoWhileMoreOfItComesToBeSeen) {
+  Room room;
+  room.show({.boards = {{kFirst, 0.0, 0.0, 0.4, 0.2}}}, 3);
+  Board const left{kFirst, 0.0, 0.0, 0.32, 0.2};
+  for (int k = 0; k < 20; ++k) {
+    room.show({.boards = {left, {kSecond, 0.32, 0.0, 0.08 + 0.01 * k, 0.2}}});
+  }
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+}
+
 // First in two pieces, then for long as one: the two were one.
 TEST(StuffItems, WhatShowsAsOneForLongBecomesOne) {
   Room room;
@@ -91,6 +102,17 @@ TEST(StuffItems, WhatIsSmallBecomesOneLater) {
   EXPECT_NEAR(counts_as_one(25), 0.576, 1e-12);
   EXPECT_NEAR(counts_as_one(100), 1.024, 1e-12);
   EXPECT_NEAR(counts_as_one(400), 1.296, 1e-12);
+}
+
+// Several small things that stand side by side often show as one, if they were told apart before.
+TEST(StuffItems, WhatIsSmallAndShowedInTwoForLongStaysTwo) {
+  Room room;
+  Board const left{kFirst, 0.0, 0.0, 0.08, 0.1};
+  Board const right{kSecond, 0.08, 0.0, 0.08, 0.1};
+  room.show({.boards = {left, right}}, 12);
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  room.show({.boards = {{kFirst, 0.0, 0.0, 0.16, 0.1}}}, 12);
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
 }
 
 // Of what is large it tells more.
