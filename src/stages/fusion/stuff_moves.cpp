@@ -43,8 +43,8 @@ bool moves_often(StuffBelief const& item) {
   return item.moved_share > kMovesOften;
 }
 
-/// Whether it arrived itself, or moved, a few looks ago, or was seen once, and not since in one with
-/// something else: nothing says that it stands still.
+/// Whether it arrived itself, or moved, a few looks ago, or was seen once, and not since in one
+/// with something else: nothing says that it stands still.
 bool has_just_come(StuffBelief const& item) {
   return (item.history_count == 1 && item.one_with.empty()) ||
          (item.history_count < kFewestLooks && item.moved_share > 0.0);
