@@ -108,7 +108,9 @@ std::vector<LabelCode> labels_of(std::vector<std::size_t> const& sizes, std::siz
 // are numbered anew.
 void drop_specks(std::size_t min_pixels, std::vector<LabelCode>& label_of_component,
                  std::vector<StuffRun>& runs, LabelMap& labels) {
-  std::vector<LabelCode> renamed(kMaxStuff, kUnassigned);
+  auto const clusters =
+      static_cast<std::size_t>(std::ranges::count_if(label_of_component, is_stuff));
+  std::vector<LabelCode> renamed(clusters, kUnassigned);
   for (StuffRun const& run : runs) {
     if (run.piece_px >= min_pixels) {
       renamed[run.label - std::size_t{kFirstStuff}] = run.label;

@@ -231,14 +231,18 @@ std::vector<StuffRun> firm_runs(Grid<float> const& depth_m, LabelMap const& labe
   std::vector<FirmRun> const& runs = pieces.runs();
   std::vector<std::size_t> const sizes_px = pieces.sizes_px();
   std::vector<StuffRun> result(runs.size());
-  std::vector<std::size_t> largest_px(kMaxStuff, 0);
+  std::vector<std::size_t> largest_px;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     std::size_t const row = labels.index({0, runs[i].v});
     result[i].pixels = {row + static_cast<std::size_t>(runs[i].begin),
                         row + static_cast<std::size_t>(runs[i].end)};
     result[i].label = labels[result[i].pixels.begin];
-    result[i].piece_px = sizes_px[i];
-    std::size_t& most_px = largest_px[result[i].label - std::size_t{kFirstStuff}];
+    result[i].piece_px = static_cast<std::uint32_t>(sizes_px[i]);
+    std::size_t const number = result[i].label - std::size_t{kFirstStuff};
+    if (number >= largest_px.size()) {
+      largest_px.resize(number + 1, 0);
+    }
+    std::size_t& most_px = largest_px[number];
     most_px = std::max(most_px, sizes_px[i]);
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {

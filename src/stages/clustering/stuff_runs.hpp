@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 
 #include "core/label.hpp"
 #include "geometry/sampled_cells.hpp"
@@ -14,7 +14,7 @@ struct StuffRun {
   /// Whether they hold together with most of their label; see firm_runs.
   bool is_firm = true;
   /// Of the piece that they belong to; 0 where firm_runs was not asked.
-  std::size_t piece_px = 0;
+  std::uint32_t piece_px = 0;
 };
 
 }  // namespace credo
