@@ -16,8 +16,8 @@
 namespace credo {
 namespace {
 
-/// A minute of a Kinect's. Without, a run of three quarters of an hour held nearly ten times what it
-/// used.
+/// A minute of a Kinect's. Without, a run of three quarters of an hour held nearly ten times what
+/// it used.
 constexpr std::size_t kFramesBetweenCleanings = 1800;
 
 /// All that a frame leaves in the folder, ready to be written.
