@@ -23,17 +23,32 @@ void draw_color(Frame const& frame, Panel const& panel, Canvas& canvas) {
   }
 }
 
+/// Where a piece of stuff ends, so that two of one colour are seen to be two.
+bool is_border(LabelMap const& labels, Pixel p, Pixel next) {
+  LabelCode const a = labels[p];
+  LabelCode const b = labels[next];
+  return a != b && a != kNoDepth && b != kNoDepth && (is_stuff(a) || is_stuff(b));
+}
+
 void draw_labels(Frame const& frame, LabelMap const& labels, BeliefState const& belief,
                  Panel const& panel, Canvas& canvas) {
   std::map<LabelCode, Rgb> const known = colors_of_stuff(belief);
+  auto const pixel = [&](int x, int y) {
+    return Pixel{std::min(x, panel.width - 1) * labels.width() / panel.width,
+                 std::min(y, panel.height - 1) * labels.height() / panel.height};
+  };
   for (int y = 0; y < panel.height; ++y) {
     for (int x = 0; x < panel.width; ++x) {
-      Pixel const p{x * labels.width() / panel.width, y * labels.height() / panel.height};
+      Pixel const p = pixel(x, y);
       auto const stuff = is_stuff(labels[p]) ? known.find(labels[p]) : known.end();
       Rgb const color = stuff != known.end() ? stuff->second : label_color(labels[p]);
       bool const has_depth = labels[p] != kNoDepth;
+      bool const border =
+          is_border(labels, p, pixel(x + 1, y)) || is_border(labels, p, pixel(x, y + 1));
       canvas.set(panel, x, y,
-                 has_depth ? mixed(color, depth_grey(frame.cloud_camera.z[p]), 0.25) : kBlack);
+                 has_depth ? mixed(mixed(color, depth_grey(frame.cloud_camera.z[p]), 0.25), kBlack,
+                                   border ? 0.6 : 0.0)
+                           : kBlack);
     }
   }
 }

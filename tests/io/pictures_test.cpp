@@ -94,6 +94,26 @@ TEST(Pictures, StuffKeepsItsBeliefsColorInTheSegmentation) {
   EXPECT_EQ((known[Pixel{200, 50}]), (Rgb{227, 208, 73})) << "yellow, that of id 25";
 }
 
+// There are more things than colours.
+TEST(Pictures, TwoPiecesOfStuffOfOneColorHaveABorder) {
+  Frame const frame = plain_frame(320, 240);
+  Segmentation segmentation = plain_segmentation(frame);
+  auto const at_border = [&](LabelCode left, LabelCode right) {
+    segmentation.labels = LabelMap(320, 240, left);
+    for (int v = 0; v < 240; ++v) {
+      std::ranges::fill(segmentation.labels.row(v).subspan(160), right);
+    }
+    Grid<Rgb> const picture = draw_picture(frame, segmentation, plain_belief(), {});
+    // The panel begins at 164 and has half the pixels.
+    return std::pair(picture[Pixel{164 + 79, 50}], picture[Pixel{164 + 78, 50}]);
+  };
+  auto const [border, inside] = at_border(kFirstStuff, kFirstStuff + 24);
+  EXPECT_LT(border[0], inside[0] / 2);
+  EXPECT_EQ(at_border(kFirstStuff, kFirstStuff).first, inside) << "one piece";
+  EXPECT_NE(at_border(kFloor, kFirstStuff).first, at_border(kFloor, kFirstStuff).second);
+  EXPECT_EQ(at_border(kFloor, kFirstWall).first, at_border(kFloor, kFirstWall).second);
+}
+
 TEST(Pictures, ThePointsOfABeliefStandWhereTheViewsProjectThem) {
   Frame const frame = plain_frame(320, 240);
   Segmentation segmentation = plain_segmentation(frame);

@@ -84,7 +84,7 @@ FieldList thing_fields(SegmentsConfig& config) {
        {},
        "",
        "the inside and the outside of a vessel are one thing, and so is a thing with its handle, "
-       "cap or neck"},
+       "cap or neck, and a box with its lid"},
       {"color_apart",
        &config.color_apart,
        {0, 1},

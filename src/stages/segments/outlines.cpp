@@ -9,6 +9,7 @@
 
 #include "stages/segments/label_runs.hpp"
 #include "stages/segments/row_bits.hpp"
+#include "stages/segments/segments.hpp"
 
 namespace credo::segments {
 namespace {
@@ -138,6 +139,11 @@ void PixelBox::add(PixelBox const& other) {
   last = {std::max(last.u, other.last.u), std::max(last.v, other.last.v)};
 }
 
+PixelBox PixelBox::shared_with(PixelBox const& other) const {
+  return {{std::max(first.u, other.first.u), std::max(first.v, other.first.v)},
+          {std::min(last.u, other.last.u), std::min(last.v, other.last.v)}};
+}
+
 PixelBox PixelBox::grown(int by_px, int width, int height) const {
   return {{std::max(first.u - by_px, 0), std::max(first.v - by_px, 0)},
           {std::min(last.u + by_px, width - 1), std::min(last.v + by_px, height - 1)}};
@@ -153,6 +159,10 @@ void Meeting::add(Meeting const& other) {
 std::vector<Outline> outlines_of(Segments const& segments, Grid<float> const& depth_m,
                                  float link_per_m) {
   return OutlineBuilder(segments, depth_m, link_per_m).outlines();
+}
+
+std::uint32_t least_touching_pairs(double focal_px) {
+  return static_cast<std::uint32_t>(std::max(1L, std::lround(4.0 * focal_px / kReferenceFocal_px)));
 }
 
 void join_outlines(std::vector<Outline>& outlines, std::int32_t into, std::int32_t from) {

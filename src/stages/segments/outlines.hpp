@@ -14,8 +14,10 @@ struct PixelBox {
   Pixel first{1, 1};
   Pixel last{0, 0};
 
-  [[nodiscard]] bool empty() const { return first.u > last.u; }
+  [[nodiscard]] bool empty() const { return first.u > last.u || first.v > last.v; }
   void add(PixelBox const& other);
+  /// What is in both.
+  [[nodiscard]] PixelBox shared_with(PixelBox const& other) const;
   /// With so much more on each side, as far as an image of that size reaches.
   [[nodiscard]] PixelBox grown(int by_px, int width, int height) const;
 };
@@ -45,6 +47,9 @@ struct Outline {
 /// than `link_per_m`. Pixels without a segment are beside nothing.
 [[nodiscard]] std::vector<Outline> outlines_of(Segments const& segments, Grid<float> const& depth_m,
                                                float link_per_m);
+
+/// So many pairs that touch are no accident.
+[[nodiscard]] std::uint32_t least_touching_pairs(double focal_px);
 
 /// Makes `from` a part of `into`, for all that they meet.
 void join_outlines(std::vector<Outline>& outlines, std::int32_t into, std::int32_t from);

@@ -36,7 +36,7 @@ struct SegmentsConfig {
   int disc_radius_px = 12;
   /// Smaller parts go to what they touch.
   int min_pixels = 80;
-  /// Joins the parts of one thing: see join_parts.
+  /// Joins the parts of one thing: see join_parts and join_sides.
   bool join_parts = true;
   /// Where colour is registered, what has no crease comes apart by colours that differ by more, as
   /// distances of the shares of red and green in all light: see split_by_color. 0 leaves colour

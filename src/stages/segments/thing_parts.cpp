@@ -1,8 +1,6 @@
 #include "stages/segments/thing_parts.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +13,8 @@
 #include "stages/segments/label_runs.hpp"
 #include "stages/segments/numbering.hpp"
 #include "stages/segments/outlines.hpp"
+#include "stages/segments/plane_fit.hpp"
+#include "stages/segments/quadratic_fit.hpp"
 
 namespace credo {
 namespace {
@@ -23,6 +23,7 @@ using segments::LabelRuns;
 using segments::Meeting;
 using segments::Outline;
 using segments::PixelBox;
+using segments::QuadraticFit;
 
 using Labels = std::vector<std::int32_t>;
 
@@ -43,72 +44,16 @@ constexpr double kLargestAttachment = 0.25;
 /// a thing inside beyond the other.
 constexpr double kHollow_quanta = 10.0;
 constexpr double kBulging_quanta = -20.0;
-/// Surfaces within 37 degrees of level carry what touches them.
-constexpr double kLevelCosine = 0.8;
+/// The same where it also goes on in the outside: twice what the noise of 300 pixels bends.
+constexpr double kSeamHollow_quanta = 4.0;
+/// Level within 11 degrees is what things stand on, and no vessel's outside. Seen: table tops 0.998
+/// and more, mugs from above up to 0.95.
+constexpr double kTableTopCosine = 0.98;
 
-/// Of 0 to below n, the sums of the powers 0 to 4; exact up to a thousand.
-std::array<double, 5> power_sums(double n) {
-  double const triangle = n * (n - 1.0) / 2.0;
-  double const pyramid = triangle * (2.0 * n - 1.0) / 3.0;
-  return {n, triangle, pyramid, triangle * triangle, pyramid * (3.0 * n * n - 3.0 * n - 1.0) / 5.0};
-}
-
-/// The quadratic that fits values at pixels best, from sums over runs of them.
-class QuadraticFit {
-public:
-  /// Side by side, from (u, v) on.
-  void add(int u, int v, std::vector<double> const& values) {
-    auto const from = power_sums(u);
-    auto const to = power_sums(u + static_cast<double>(values.size()));
-    std::array<double, 3> of_values = {};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      double const at = u + static_cast<double>(i);
-      of_values[0] += values[i];
-      of_values[1] += at * values[i];
-      of_values[2] += at * at * values[i];
-    }
-    double power_of_v = 1.0;
-    for (std::size_t j = 0; j < 5; ++j) {
-      for (std::size_t i = 0; i + j < 5; ++i) {
-        moments_[i][j] += (to[i] - from[i]) * power_of_v;
-      }
-      for (std::size_t i = 0; i + j < 3; ++i) {
-        products_[i][j] += of_values[i] * power_of_v;
-      }
-      power_of_v *= v;
-    }
-  }
-
-  /// The second differences of both axes over so many pixels.
-  [[nodiscard]] double bend(double over_px) const {
-    // Powers of u and v.
-    constexpr std::array<std::array<std::size_t, 2>, 6> kTerms = {
-        {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
-    std::array<double, 5> scale = {1.0};
-    for (std::size_t power = 1; power < scale.size(); ++power) {
-      scale[power] = scale[power - 1] / over_px;
-    }
-    Eigen::Matrix<double, 6, 6> squares;
-    Eigen::Matrix<double, 6, 1> products;
-    for (std::size_t i = 0; i < kTerms.size(); ++i) {
-      auto const [u, v] = kTerms[i];
-      products[static_cast<Eigen::Index>(i)] = products_[u][v] * scale[u + v];
-      for (std::size_t k = 0; k < kTerms.size(); ++k) {
-        std::size_t const all_u = u + kTerms[k][0];
-        std::size_t const all_v = v + kTerms[k][1];
-        squares(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-            moments_[all_u][all_v] * scale[all_u + all_v];
-      }
-    }
-    Eigen::Matrix<double, 6, 1> const fit = squares.ldlt().solve(products);
-    return 2.0 * (fit[3] + fit[5]);
-  }
-
-private:
-  /// By the powers of u and v.
-  std::array<std::array<double, 5>, 5> moments_ = {};
-  std::array<std::array<double, 3>, 3> products_ = {};
-};
+/// What stands on a level surface is so high above it, but for a tenth of it.
+constexpr double kOnIt_quanta = 2.0;
+/// Of what is larger, not all pixels are looked at for its bend and its place.
+constexpr std::uint32_t kEnoughPixels = 4096;
 
 class PartJoiner {
 public:
@@ -121,7 +66,7 @@ public:
         up_camera_(up_camera),
         quantum_per_m_(config.quantum_per_m),
         disc_px_(static_cast<int>(std::lround(scaled(config.disc_radius_px)))),
-        least_pairs_(static_cast<std::uint32_t>(std::max(1L, std::lround(scaled(4.0))))),
+        least_pairs_(segments::least_touching_pairs(intrinsics.fx_px)),
         outlines_(segments::outlines_of(
             segments, depth_m, static_cast<float>(config.link_quanta * config.quantum_per_m))),
         root_(outlines_.size()) {
@@ -162,19 +107,36 @@ private:
       return;
     }
     std::int32_t const outside = front->first;
-    Labels const found = island(label, outside);
-    if (!lies_within(found, found, outside) || is_cut_off_beside(found, outside)) {
-      return;
-    }
-    // Things in it stay apart.
-    Labels inside = found;
-    std::erase_if(inside, [&](std::int32_t part) { return bend_quanta({part}) < kBulging_quanta; });
-    if (lies_within(inside, found, outside) && bend_quanta(inside) > kHollow_quanta &&
-        !is_far_behind(inside, outside)) {
+    Labels const inside = is_seamed(label, outside) ? Labels{label} : hollow_within(label, outside);
+    if (!inside.empty() && !is_far_behind(inside, outside) && !is_table_top(outside)) {
       for (std::int32_t const part : inside) {
         join(outside, part);
       }
     }
+  }
+
+  /// Whether a segment goes on in `outside` beside where that hides it, as a vessel's inside does
+  /// at the ends of its rim.
+  [[nodiscard]] bool is_seamed(std::int32_t label, std::int32_t outside) const {
+    auto const [with_outside, with_others] = meetings_of({label}, {label}, outside);
+    double const pairs = with_outside.pairs() + with_others.pairs();
+    return outline(label).pixels <= kLargestInside * outline(outside).pixels &&
+           is_between(with_outside, with_others) && with_outside.touching > kRim * pairs &&
+           with_others.touching <= kRim * pairs && !is_cut_off_beside({label}, outside) &&
+           bend_quanta({label}) > kSeamHollow_quanta;
+  }
+
+  /// What is with a segment behind `outside`, if that is a hollow that touches nothing else.
+  [[nodiscard]] Labels hollow_within(std::int32_t label, std::int32_t outside) const {
+    Labels const found = island(label, outside);
+    if (!lies_within(found, found, outside) || is_cut_off_beside(found, outside)) {
+      return {};
+    }
+    // Things in it stay apart.
+    Labels inside = found;
+    std::erase_if(inside, [&](std::int32_t part) { return bend_quanta({part}) < kBulging_quanta; });
+    bool const hollow = lies_within(inside, found, outside) && bend_quanta(inside) > kHollow_quanta;
+    return hollow ? inside : Labels{};
   }
 
   /// What a segment is connected with by touch, not counting what is through `without`. Empty where
@@ -199,20 +161,30 @@ private:
   /// front of what is beyond; but for what else is on their island.
   [[nodiscard]] bool lies_within(Labels const& inside, Labels const& island,
                                  std::int32_t outside) const {
-    Meeting with_outside;
-    Meeting with_others;
-    for (std::int32_t const part : inside) {
-      for (auto const& [other, meeting] : outline(part).meetings) {
-        if (other == outside) {
-          with_outside.add(meeting);
-        } else if (std::ranges::find(island, other) == island.end()) {
-          with_others.add(meeting);
-        }
-      }
-    }
+    auto const [with_outside, with_others] = meetings_of(inside, island, outside);
+    return is_between(with_outside, with_others);
+  }
+
+  [[nodiscard]] static bool is_between(Meeting const& with_outside, Meeting const& with_others) {
     double const pairs = with_outside.pairs() + with_others.pairs();
     return with_outside.behind > kRim * pairs && with_others.before > kRim * pairs &&
            with_others.behind <= kHardly * with_outside.behind;
+  }
+
+  /// Where some segments meet `outside`, and what else there is but their island.
+  [[nodiscard]] std::pair<Meeting, Meeting> meetings_of(Labels const& parts, Labels const& island,
+                                                        std::int32_t outside) const {
+    std::pair<Meeting, Meeting> found;
+    for (std::int32_t const part : parts) {
+      for (auto const& [other, meeting] : outline(part).meetings) {
+        if (other == outside) {
+          found.first.add(meeting);
+        } else if (std::ranges::find(island, other) == island.end()) {
+          found.second.add(meeting);
+        }
+      }
+    }
+    return found;
   }
 
   /// Whether the image's border cuts some segments off where it does not cut off `outside`: a
@@ -246,7 +218,7 @@ private:
     double sum_m = 0.0;
     double pixels = 0.0;
     for (std::int32_t const part : parts) {
-      for_runs(part, outline(part).box, [&](int v, int begin, int end) {
+      for_runs(part, outline(part).box, rows_apart(part), [&](int v, int begin, int end) {
         for (int u = begin; u < end; ++u) {
           sum_m += static_cast<double>(depth_m_[Pixel{u, v}]);
         }
@@ -270,7 +242,7 @@ private:
     QuadraticFit fit;
     std::vector<double> quanta;
     for (std::int32_t const part : parts) {
-      for_runs(part, outline(part).box, [&](int v, int begin, int end) {
+      for_runs(part, outline(part).box, rows_apart(part), [&](int v, int begin, int end) {
         quanta.clear();
         for (int u = begin; u < end; ++u) {
           quanta.push_back(quanta_at({u, v}));
@@ -306,7 +278,7 @@ private:
         part.pixels > kLargestAttachment * outline(holder).pixels) {
       return;
     }
-    if (!is_level(holder, with_holder.touch)) {
+    if (!stands_on(label, holder, with_holder.touch)) {
       join(holder, label);
     }
   }
@@ -316,28 +288,53 @@ private:
            box.last.v == depth_m_.height() - 1;
   }
 
-  /// Whether a segment is level around a place, facing up.
-  [[nodiscard]] bool is_level(std::int32_t label, PixelBox const& place) const {
-    PixelBox const around = place.grown(disc_px_, depth_m_.width(), depth_m_.height());
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d products = Eigen::Vector3d::Zero();
-    for_runs(label, around, [&](int v, int begin, int end) {
+  /// Whether another segment is level around where a segment touches it, and that one rises above
+  /// it. What does not is its rim, or hangs from it.
+  [[nodiscard]] bool stands_on(std::int32_t label, std::int32_t holder,
+                               PixelBox const& touch) const {
+    PixelBox const around = touch.grown(disc_px_, depth_m_.width(), depth_m_.height());
+    Eigen::Vector3d const plane_per_m = normal_per_m(holder, around, 1);
+    if (segments::upward_cosine(plane_per_m, *up_camera_) <= segments::kLevelCosine) {
+      return false;
+    }
+    std::uint32_t above = 0;
+    for_runs(label, outline(label).box, 1, [&](int v, int begin, int end) {
       for (int u = begin; u < end; ++u) {
-        Eigen::Vector3d const ray((u - intrinsics_.cx_px) / intrinsics_.fx_px,
-                                  (v - intrinsics_.cy_px) / intrinsics_.fy_px, 1.0);
-        squares += ray * ray.transpose();
-        products += ray * quanta_at({u, v});
+        double const on_plane_quanta = plane_per_m.dot(ray_at({u, v})) / quantum_per_m_;
+        above += quanta_at({u, v}) - on_plane_quanta > kOnIt_quanta ? 1U : 0U;
       }
     });
-    // A plane n p = 1 has inverse depth n ray: n points away from the camera.
-    Eigen::Vector3d const normal = squares.ldlt().solve(products);
-    return -normal.dot(*up_camera_) > kLevelCosine * normal.norm();
+    return above > kHardly * outline(label).pixels;
   }
 
-  /// Calls `visit(v, begin, end)` for the runs of a label and of what has gone into it.
+  [[nodiscard]] bool is_table_top(std::int32_t label) const {
+    return up_camera_ &&
+           segments::upward_cosine(normal_per_m(label, outline(label).box, rows_apart(label)),
+                                   *up_camera_) > kTableTopCosine;
+  }
+
+  /// Of the plane that fits what of a segment is in a box.
+  [[nodiscard]] Eigen::Vector3d normal_per_m(std::int32_t label, PixelBox const& box,
+                                             int rows_apart) const {
+    segments::PlaneFit plane;
+    for_runs(label, box, rows_apart, [&](int v, int begin, int end) {
+      for (int u = begin; u < end; ++u) {
+        plane.add(ray_at({u, v}), 1.0 / static_cast<double>(depth_m_[Pixel{u, v}]));
+      }
+    });
+    return plane.normal_per_m();
+  }
+
+  /// Rows that tell enough of a segment: some thousand pixels.
+  [[nodiscard]] int rows_apart(std::int32_t label) const {
+    return 1 + static_cast<int>(outline(label).pixels / kEnoughPixels);
+  }
+
+  /// Calls `visit(v, begin, end)` for the runs of a label and of what has gone into it, in rows so
+  /// far apart.
   template <typename Visit>
-  void for_runs(std::int32_t label, PixelBox const& box, Visit const& visit) const {
-    for (int v = box.first.v; v <= box.last.v; ++v) {
+  void for_runs(std::int32_t label, PixelBox const& box, int rows_apart, Visit const& visit) const {
+    for (int v = box.first.v; v <= box.last.v; v += rows_apart) {
       auto const row = segments_.labels.row(v).first(static_cast<std::size_t>(box.last.u + 1));
       std::size_t end = 0;
       for (auto begin = static_cast<std::size_t>(box.first.u); begin < row.size(); begin = end) {
@@ -349,6 +346,10 @@ private:
     }
   }
 
+  [[nodiscard]] Eigen::Vector3d ray_at(Pixel p) const {
+    return {(p.u - intrinsics_.cx_px) / intrinsics_.fx_px,
+            (p.v - intrinsics_.cy_px) / intrinsics_.fy_px, 1.0};
+  }
   [[nodiscard]] double quanta_at(Pixel p) const {
     return 1.0 / (static_cast<double>(depth_m_[p]) * quantum_per_m_);
   }
@@ -364,7 +365,6 @@ private:
   std::optional<Eigen::Vector3d> const& up_camera_;
   double quantum_per_m_;
   int disc_px_;
-  /// So many pairs are no accident.
   std::uint32_t least_pairs_;
   std::vector<Outline> outlines_;
   Labels root_;

@@ -12,12 +12,13 @@ namespace credo {
 
 /// Joins the parts of one thing that a crease or a jump of depth holds apart:
 /// - the inside of a vessel and its outside: what lies behind nothing but one segment, no farther
-///   than both are large, before something else (the rim's far side), touches nothing else and is
-///   hollow; where the image's border cuts it off, other than at the top, it cuts off the outside,
-///   too;
+///   than both are large, before something else (the rim's far side), and is hollow; where the
+///   image's border cuts it off, other than at the top, it cuts off the outside, too. It touches
+///   nothing else, or the outside at the ends of its rim. Where `up_camera` (unit vector, camera
+///   frame) tells that the outside is level, as a table's top, it has no inside;
 /// - what sticks out of one thing, is less than a quarter of it and touches nothing else: handle,
-///   cap, neck. What stands on a level surface does not stick out of it, so without
-///   `up_camera` (unit vector, camera frame) none of these join.
+///   cap, neck. What stands on a level surface does not stick out of it, so without `up_camera`
+///   none of these join; what does not rise above it is its rim.
 ///
 /// A thing's foot shows whether it is one of its own, so what the image's border cuts off or what
 /// something else hides a part of joins nothing; a thing whose foot is hidden by one that touches

@@ -5,6 +5,7 @@
 #include "stages/segments/color_parts.hpp"
 #include "stages/segments/raised_things.hpp"
 #include "stages/segments/thing_parts.hpp"
+#include "stages/segments/thing_sides.hpp"
 
 namespace credo {
 
@@ -19,6 +20,10 @@ Segments segment_things(Grid<float> const& depth_m, Grid<Rgb> const& color,
   }
   if (config.raised_quanta > 0.0) {
     segments = with_raised_things(std::move(segments), depth_m, intrinsics.fx_px, config);
+  }
+  if (config.join_parts) {
+    // Last, for what is raised stands out of one face.
+    segments = join_sides(std::move(segments), depth_m, intrinsics, up_camera, config);
   }
   return segments;
 }

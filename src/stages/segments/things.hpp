@@ -10,9 +10,9 @@
 
 namespace credo {
 
-/// A frame in things: `convex_segments`, then `split_by_color`, `join_parts` and
-/// `with_raised_things`, as far as `config` has them. `color` is registered, or empty. `up_camera`
-/// is a unit vector in the camera frame, where it is known.
+/// A frame in things: `convex_segments`, then `split_by_color`, `join_parts`,
+/// `with_raised_things` and `join_sides`, as far as `config` has them. `color` is registered, or
+/// empty. `up_camera` is a unit vector in the camera frame, where it is known.
 [[nodiscard]] Segments segment_things(Grid<float> const& depth_m, Grid<Rgb> const& color,
                                       CameraIntrinsics const& intrinsics,
                                       std::optional<Eigen::Vector3d> const& up_camera,

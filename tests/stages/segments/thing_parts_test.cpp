@@ -135,6 +135,16 @@ public:
     }
   }
 
+  /// Of what is there already.
+  template <typename Depth>
+  void add_depth(Pixel first, Pixel last, Depth const& depth_m) {
+    for (int v = first.v; v < last.v; ++v) {
+      for (int u = first.u; u < last.u; ++u) {
+        depth_m_[Pixel{u, v}] = static_cast<float>(depth_m(Pixel{u, v}));
+      }
+    }
+  }
+
   /// Whether segments 2 and 3 become one.
   [[nodiscard]] bool joins(std::optional<Vector3d> const& up) const {
     Segments segments = segments_;
@@ -230,6 +240,33 @@ TEST(JoinParts, AnInsideIsNotFartherBehindItsOutsideThanBothAreLarge) {
   }
 }
 
+// A mug's inside goes on in its outside at both ends of what the rim hides.
+TEST(JoinParts, AnInsideThatGoesOnInItsOutsideIsLessHollow) {
+  auto const mug = [](double behind_m, double bend_quanta, Pixel table_first, Pixel table_last) {
+    Schematic picture = vessel([&](Pixel p) {
+      double const from_middle = (p.u - 99.5) / 40.0;
+      return 1.0 / (1.0 / behind_m + bend_quanta * 0.00287 * from_middle * from_middle);
+    });
+    for (Pixel const end : {Pixel{60, 70}, Pixel{124, 70}}) {
+      picture.add_depth(end, {end.u + 16, 72}, [&](Pixel) { return behind_m; });
+    }
+    picture.add_depth(table_first, table_last, [&](Pixel) { return behind_m; });
+    return picture.joins(std::nullopt);
+  };
+  EXPECT_TRUE(mug(1.1, 3, {0, 0}, {0, 0}));
+  EXPECT_FALSE(mug(1.1, 1.5, {0, 0}, {0, 0})) << "flat";
+  EXPECT_FALSE(mug(1.01, 3, {0, 0}, {0, 0})) << "the front hides nothing of it";
+  EXPECT_TRUE(mug(1.1, 3, {60, 40}, {80, 50})) << "touches what is beyond by little";
+  EXPECT_FALSE(mug(1.1, 3, {60, 40}, {110, 50})) << "and by more";
+}
+
+// Chairs behind a table are not its inside, however they bend.
+TEST(JoinParts, ATableTopHasNoInside) {
+  EXPECT_TRUE(vessel(hollow_inside).joins(Vector3d(0, -1, 0)));
+  // The front's normal is along the axis.
+  EXPECT_FALSE(vessel(hollow_inside).joins(Vector3d(0, 0, -1)));
+}
+
 TEST(JoinParts, AnAttachmentIsSmallAndTouchesWhereItMeets) {
   Vector3d const up(0, -1, 0);
   auto const body_with = [](Pixel last, auto const& handle_m) {
@@ -242,6 +279,25 @@ TEST(JoinParts, AnAttachmentIsSmallAndTouchesWhereItMeets) {
   EXPECT_FALSE(body_with({180, 92}, front).joins(up)) << "more than a quarter of it";
   EXPECT_FALSE(body_with({152, 92}, [](Pixel p) { return p.v < 86 ? 0.9 : 1.0; }).joins(up))
       << "in front of it, but for a corner";
+}
+
+// The camera looks straight down on a lid.
+TEST(JoinParts, WhatDoesNotRiseAboveALevelSurfaceIsItsRim) {
+  auto const lid_with = [](auto const& rim_m) {
+    Schematic picture;
+    picture.add({60, 70}, {140, 100}, front);
+    picture.add({140, 74}, {152, 92}, rim_m);
+    return picture.joins(Vector3d(0, 0, -1));
+  };
+  auto const raised = [](double quanta) {
+    return [=](Pixel) { return 1.0 / (1.0 + 0.00287 * quanta); };
+  };
+  EXPECT_TRUE(lid_with(front));
+  EXPECT_TRUE(lid_with(raised(1.5)));
+  EXPECT_TRUE(lid_with(raised(-4.0))) << "it hangs";
+  EXPECT_FALSE(lid_with(raised(2.5)));
+  EXPECT_FALSE(lid_with([&](Pixel p) { return p.u < 150 ? 1.0 : raised(2.5)(p); }))
+      << "a sixth of it";
 }
 
 TEST(JoinParts, TheResultIsNumberedInRasterOrder) {
