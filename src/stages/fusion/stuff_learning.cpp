@@ -3,6 +3,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -11,6 +12,8 @@
 
 namespace credo {
 namespace {
+
+constexpr double kKnown = 0.8;
 
 /// Whether a block shows another thing that is believed to be there: of those before the item in
 /// the belief what is believed after the frame counts, of those behind it what was before.
@@ -44,6 +47,14 @@ void learn_anew(FoundThing const& found, StuffBelief& item, Lesson const& lesson
   begin_model(item, all);
 }
 
+/// Whether most of what a thing shows in beside its main cluster was seen of it before. Else it may
+/// be another thing that comes into view beside it, and would be learnt strip by strip.
+bool is_known(StuffLook const& look, LabelCode label, SeenCluster const& cluster) {
+  auto const share = std::ranges::find(look.shares, label, &ClusterShare::label);
+  return share != look.shares.end() &&
+         share->blocks >= kKnown * static_cast<double>(cluster.blocks.size());
+}
+
 void learn(FoundThing& found, StuffBelief& item, Lesson const& lesson) {
   if (found.is_elsewhere) {
     learn_anew(found, item, lesson);
@@ -63,7 +74,9 @@ void learn(FoundThing& found, StuffBelief& item, Lesson const& lesson) {
   std::vector<Eigen::Vector3f> points_world;
   for (LabelCode const label : found.labels) {
     SeenCluster const& cluster = lesson.clusters[label - std::size_t{kFirstStuff}];
-    append_own_points(cluster, found.item, lesson, points_world);
+    if (label == *item.label || is_known(look, label, cluster)) {
+      append_own_points(cluster, found.item, lesson, points_world);
+    }
     pixels += cluster.pixel_count;
   }
   set_model(item, fused_model(carved_model(std::move(parted.model)), points_world), pixels);

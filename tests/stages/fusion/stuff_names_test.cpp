@@ -61,6 +61,18 @@ TEST(StuffItems, WhatShowsInTwoBecomesTwoWhileMoreOfItComesToBeSeen) {
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
 }
 
+// A strip of it showed in one with a thing beside it; the rest comes into view in a few frames.
+TEST(StuffItems, WhatComesIntoViewBesideAThingIsNotLearntStripByStrip) {
+  Room room;
+  room.show({.boards = {{kFirst, 0.0, 0.0, 0.44, 0.2}}}, 3);
+  Board const left{kFirst, 0.0, 0.0, 0.4, 0.2};
+  for (double const width_m : {0.06, 0.09, 0.13, 0.19, 0.28}) {
+    room.show({.boards = {left, {kSecond, 0.4, 0.0, width_m, 0.2}}});
+  }
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+  EXPECT_LT(room.stuff()[0].latest().bounds_world.max().x(), 0.47F);
+}
+
 // First in two pieces, then for long as one: the two were one.
 TEST(StuffItems, WhatShowsAsOneForLongBecomesOne) {
   Room room;
