@@ -6,6 +6,7 @@
 
 #include "core/grid.hpp"
 #include "core/segments.hpp"
+#include "stages/segments/labelled_rows.hpp"
 
 namespace credo::segments {
 
@@ -43,8 +44,9 @@ struct Outline {
 
 /// By label; the first belongs to none. Neighbours touch where their inverse depths differ by less
 /// than `link_per_m`. Pixels without a segment are beside nothing.
-[[nodiscard]] std::vector<Outline> outlines_of(Segments const& segments, Grid<float> const& depth_m,
-                                               float link_per_m);
+/// `rows` are those of the segments' labels.
+[[nodiscard]] std::vector<Outline> outlines_of(Segments const& segments, LabelledRows const& rows,
+                                               Grid<float> const& depth_m, float link_per_m);
 
 /// Makes `from` a part of `into`, for all that they meet.
 void join_outlines(std::vector<Outline>& outlines, std::int32_t into, std::int32_t from);
