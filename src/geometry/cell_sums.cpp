@@ -168,30 +168,30 @@ std::size_t CellSums::slot_of(std::uint64_t key) const {
   // Fibonacci hashing: the upper bits of the product depend on all bits of the key.
   std::size_t slot =
       (key * 0x9E3779B97F4A7C15U) >> (64U - static_cast<unsigned>(std::countr_zero(slots_.size())));
-  while (slots_[slot] != 0 && cells_[slots_[slot] - 1].key != key) {
+  while (slots_[slot] != 0 && cells_[slots_[slot]].key != key) {
     slot = (slot + 1) & (slots_.size() - 1);
   }
   return slot;
 }
 
-CellSums::Cell& CellSums::cell_of(std::uint64_t key) {
+std::uint32_t CellSums::number_of(std::uint64_t key) {
   std::uint32_t& slot = slots_[slot_of(key)];
   if (slot != 0) {
-    return cells_[slot - 1];
+    return slot;
   }
-  Cell& cell = cells_.emplace_back();
-  cell.key = key;
-  slot = static_cast<std::uint32_t>(cells_.size());
-  if (4 * cells_.size() > slots_.size()) {
+  auto const number = static_cast<std::uint32_t>(cells_.size());
+  cells_.emplace_back().key = key;
+  slot = number;
+  if (4 * cell_count() > slots_.size()) {
     grow();
   }
-  return cell;
+  return number;
 }
 
 void CellSums::grow() {
   slots_.assign(4 * slots_.size(), 0);
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    slots_[slot_of(cells_[i].key)] = static_cast<std::uint32_t>(i + 1);
+  for (std::size_t i = 1; i < cells_.size(); ++i) {
+    slots_[slot_of(cells_[i].key)] = static_cast<std::uint32_t>(i);
   }
 }
 
@@ -201,23 +201,21 @@ void CellSums::add_chunk(PointSpans const& points) {
   auto const& [x, y, z] = chunk.points;
   auto const& [cell_x, cell_y, cell_z] = chunk.cells;
   // Neighbours in the image mostly share their cell: it is looked up once for all of them.
-  for (std::uint64_t begins = chunk.begins; begins != 0;) {
-    auto const begin = static_cast<std::size_t>(std::countr_zero(begins));
-    begins &= begins - 1;
-    std::size_t const end =
-        begins != 0 ? static_cast<std::size_t>(std::countr_zero(begins)) : points.x.size();
-    if (cell_x[begin + 1] == kNoCell) {
-      continue;
-    }
-    Cell& cell = cell_of(key_of(cell_x[begin + 1], cell_y[begin + 1], cell_z[begin + 1]));
-    auto [sum_x, sum_y, sum_z] = cell.sum;
-    for (std::size_t i = begin; i < end; ++i) {
-      sum_x += static_cast<double>(x[i]);
-      sum_y += static_cast<double>(y[i]);
-      sum_z += static_cast<double>(z[i]);
-    }
-    cell.sum = {sum_x, sum_y, sum_z};
-    cell.count += static_cast<double>(end - begin);
+  std::array<std::uint32_t, kChunk> numbers;
+  std::size_t runs = 0;
+  for (std::uint64_t begins = chunk.begins; begins != 0; begins &= begins - 1) {
+    std::size_t const i = 1 + static_cast<std::size_t>(std::countr_zero(begins));
+    numbers[runs++] = cell_x[i] == kNoCell ? 0 : number_of(key_of(cell_x[i], cell_y[i], cell_z[i]));
+  }
+  // Point by point: how many follow each other in one cell is not to be foreseen.
+  std::size_t run = 0;
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    run += (chunk.begins >> i) & 1U;
+    Cell& cell = cells_[numbers[run - 1]];
+    cell.sum[0] += static_cast<double>(x[i]);
+    cell.sum[1] += static_cast<double>(y[i]);
+    cell.sum[2] += static_cast<double>(z[i]);
+    cell.count += 1.0;
   }
 }
 
@@ -249,19 +247,19 @@ Eigen::Vector3f CellSums::Cell::mean() const {
 }
 
 void CellSums::append_means(std::size_t first, PointList& means) const {
-  means.reserve(means.size() + cells_.size() - first);
-  for (std::size_t i = first; i < cells_.size(); ++i) {
+  means.reserve(means.size() + cell_count() - first);
+  for (std::size_t i = first + 1; i < cells_.size(); ++i) {
     means.push_back(cells_[i].mean());
   }
 }
 
 Eigen::Vector3f CellSums::mean() const {
   Cell all;
-  for (Cell const& cell : cells_) {
+  for (std::size_t i = 1; i < cells_.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      all.sum[axis] += cell.sum[axis];
+      all.sum[axis] += cells_[i].sum[axis];
     }
-    all.count += cell.count;
+    all.count += cells_[i].count;
   }
   return all.mean();
 }
@@ -273,7 +271,7 @@ Eigen::AlignedBox3f CellSums::bounds() const {
     bounds.min()[i] = std::ranges::min(placement_.min[axis]);
     bounds.max()[i] = std::ranges::max(placement_.max[axis]);
   }
-  return cells_.empty() ? Eigen::AlignedBox3f() : bounds;
+  return cell_count() == 0 ? Eigen::AlignedBox3f() : bounds;
 }
 
 }  // namespace credo

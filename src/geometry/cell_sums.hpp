@@ -33,7 +33,7 @@ public:
   void add(PointSpans const& points);
   void add(std::span<Eigen::Vector3f const> points);
 
-  [[nodiscard]] std::size_t cell_count() const { return cells_.size(); }
+  [[nodiscard]] std::size_t cell_count() const { return cells_.size() - 1; }
   /// Appends the mean point of each cell from number `first` on.
   void append_means(std::size_t first, PointList& means) const;
   /// Mean of all points added; NaN if there were none.
@@ -76,15 +76,16 @@ private:
     [[nodiscard]] Eigen::Vector3f mean() const;
   };
 
-  Cell& cell_of(std::uint64_t key);
+  [[nodiscard]] std::uint32_t number_of(std::uint64_t key);
   [[nodiscard]] std::size_t slot_of(std::uint64_t key) const;
   void grow();
   /// At most kChunk of them.
   void add_chunk(PointSpans const& points);
 
   Placement placement_;
-  std::vector<Cell> cells_;
-  // Hash table of cells, by number + 1; 0 is free. Small at first: a frame may hold very many
+  // From number 1 on; the first takes points that are in none.
+  std::vector<Cell> cells_ = std::vector<Cell>(1);
+  // Hash table of cells, by number; 0 is free. Small at first: a frame may hold very many
   // clusters, and each has its own.
   std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(16);
 };

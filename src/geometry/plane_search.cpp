@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 
+#include "core/grid.hpp"
+#include "geometry/few_draws.hpp"
 #include "geometry/plane_search_kernels.hpp"
 
 namespace credo {
@@ -15,7 +16,8 @@ namespace {
 using plane_search::count_belonging;
 using plane_search::mark_belonging;
 
-using Positions = std::vector<std::uint32_t>;
+// All of them are written.
+using Positions = std::vector<std::uint32_t, UnsetAllocator<std::uint32_t>>;
 
 /// The positions at which the flag has that value, in their order.
 Positions positions_where(std::span<std::uint8_t const> flags, bool value) {
@@ -98,7 +100,7 @@ private:
 
   PlaneSearchPoints const& points_;
   PlaneSampling sampling_;
-  std::mt19937 random_;
+  FewDraws random_;
 };
 
 /// Draws after which a plane with such a share of the points would have been found with the

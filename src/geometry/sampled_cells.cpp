@@ -73,10 +73,13 @@ CellSums sampled_cells(OrganizedCloud const& cloud, std::span<PixelRun const> ru
     CellSums cells(sampling.spacing_m, T_grid_camera);
     CellFeed feed(cells);
     for (auto const [begin, end] : runs) {
-      PixelSteps const steps = sampling.steps_px(cloud.at(begin));
-      std::size_t const u = begin % width;
-      if (begin / width % steps.v == 0) {
-        feed.add(cloud, begin + (steps.u - u % steps.u) % steps.u, end, steps.u);
+      Eigen::Vector3f const first = cloud.at(begin);
+      std::size_t const v = begin / width;
+      // Steps are powers of two. Of a row that is left out its own need not be known.
+      if ((v & (sampling.step_px(1, first) - 1)) == 0) {
+        std::size_t const step = sampling.step_px(0, first);
+        std::size_t const u = begin - v * width;
+        feed.add(cloud, begin + (-u & (step - 1)), end, step);
       }
     }
     feed.flush();

@@ -46,14 +46,15 @@ struct PixelSampling {
   ///
   /// Where the plane n p = d is seen at P, a pixel further is z / f (e - n_e / d P) on it.
   [[nodiscard]] PixelSteps steps_px(Eigen::Vector3f const& p_camera) const {
+    return {step_px(0, p_camera), step_px(1, p_camera)};
+  }
+  /// Along the rows (axis 0), or from row to row.
+  [[nodiscard]] std::size_t step_px(Eigen::Index axis, Eigen::Vector3f const& p_camera) const {
     constexpr float kPerCell = 1.5F;
     float const spacing_px = focal_px * spacing_m / kPerCell;
-    auto const step = [&](Eigen::Index axis) -> std::size_t {
-      Eigen::Vector3f const along = Eigen::Vector3f::Unit(axis) - slant_per_m[axis] * p_camera;
-      float const apart_m = p_camera.z() * along.norm();
-      return 4.0F * apart_m <= spacing_px ? 4 : 2.0F * apart_m <= spacing_px ? 2 : 1;
-    };
-    return {step(0), step(1)};
+    Eigen::Vector3f const along = Eigen::Vector3f::Unit(axis) - slant_per_m[axis] * p_camera;
+    float const apart_m = p_camera.z() * along.norm();
+    return 4.0F * apart_m <= spacing_px ? 4 : 2.0F * apart_m <= spacing_px ? 2 : 1;
   }
 };
 

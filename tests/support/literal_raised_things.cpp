@@ -28,7 +28,8 @@ public:
       : labels_(segments.labels),
         depth_m_(depth_m),
         config_(config),
-        surfaces_(segments::flat_surfaces(segments, depth_m, config.quantum_per_m,
+        surfaces_(segments::flat_surfaces(segments, segments::LabelledRows(segments.labels),
+                                          depth_m, config.quantum_per_m,
                                           8000.0 * focal_px / 525.0 * focal_px / 525.0)) {}
 
   [[nodiscard]] Grid<float> smooth() const {

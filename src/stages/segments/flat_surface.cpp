@@ -5,10 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
-
-#include "stages/segments/label_runs.hpp"
 
 namespace credo::segments {
 namespace {
@@ -199,6 +196,7 @@ std::optional<FlatSurface> flat_surface(std::vector<SurfaceSample> const& sample
 }
 
 std::vector<std::optional<FlatSurface>> flat_surfaces(Segments const& segments,
+                                                      LabelledRows const& rows,
                                                       Grid<float> const& depth_m,
                                                       double quantum_per_m, double least_px) {
   std::size_t const labels = segments.pixel_counts.size() + 1;
@@ -211,17 +209,14 @@ std::vector<std::optional<FlatSurface>> flat_surfaces(Segments const& segments,
   }
   std::vector<std::size_t> next = every;
   std::vector<std::vector<Pixel>> taken(labels);
-  LabelRuns runs(depth_m.width());
   for (int v = 0; v < depth_m.height(); ++v) {
-    std::span<std::int32_t const> const row = segments.labels.row(v);
-    runs.find(row);
-    for (std::size_t begin = 0, end = 0; begin < row.size(); begin = end) {
-      end = runs.end(begin);
-      auto const label = static_cast<std::size_t>(row[begin]);
+    for (LabelRun const& run : rows.row(v)) {
+      auto const label = static_cast<std::size_t>(run.label);
       if (every[label] == 0) {
         continue;
       }
-      std::size_t u = begin + next[label] - 1;
+      auto const end = static_cast<std::size_t>(run.end);
+      std::size_t u = static_cast<std::size_t>(run.begin) + next[label] - 1;
       for (; u < end; u += every[label]) {
         taken[label].push_back({static_cast<int>(u), v});
       }

@@ -7,6 +7,7 @@
 
 #include "core/grid.hpp"
 #include "core/segments.hpp"
+#include "stages/segments/labelled_rows.hpp"
 
 namespace credo::segments {
 
@@ -46,7 +47,9 @@ struct FlatSurface {
 
 /// Of each segment of at least so many pixels its flat surface, by label; the first belongs to
 /// none.
+/// `rows` are those of the segments' labels.
 [[nodiscard]] std::vector<std::optional<FlatSurface>> flat_surfaces(Segments const& segments,
+                                                                    LabelledRows const& rows,
                                                                     Grid<float> const& depth_m,
                                                                     double quantum_per_m,
                                                                     double least_px);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -23,6 +24,12 @@ constexpr std::uint8_t kThickest = 5;
 constexpr std::uint8_t kMiddle = 3;
 constexpr std::uint8_t kThinnest = 2;
 
+/// A pixel that a part has taken, and the part.
+struct Taken {
+  Position at;
+  std::int32_t label;
+};
+
 /// Pixels of one row, side by side, that may all be labelled.
 struct Run {
   int v = 0;
@@ -43,9 +50,9 @@ public:
         bits_(map.width()),
         neighbours_({-1, 1, static_cast<Position>(-labels_.stride()),
                      static_cast<Position>(labels_.stride())}),
-        queue_(new Position[static_cast<std::size_t>(map.width()) *
-                                static_cast<std::size_t>(map.height()) +
-                            1]) {
+        queue_(new Taken[static_cast<std::size_t>(map.width()) *
+                             static_cast<std::size_t>(map.height()) +
+                         1]) {
     for (int v = 0; v < map.height(); ++v) {
       std::fill_n(labels_.row(v), map.width(), 0);
       worth_row(map.disparity.row(v), map.thickness.row(v), static_cast<std::size_t>(map.width()),
@@ -149,20 +156,22 @@ private:
   void grow(std::uint8_t least) {
     std::uint8_t* const worth = worth_.row(0);
     std::int32_t* const labels = labels_.row(0);
-    Position* const queue = queue_.get();
+    Taken* const queue = queue_.get();
+    // A member might be one of the bytes that are written, for all that compilers know.
+    auto const neighbours = neighbours_;
     std::size_t end = 0;
-    for_each_front(least, [&](Position at) { queue[end++] = at; });
+    for_each_front(least, [&](Position at) { queue[end++] = {at, labels[at]}; });
     for (std::size_t i = 0; i < end; ++i) {
-      Position const at = queue[i];
-      std::int32_t const label = labels[at];
-      for (Position const step : neighbours_) {
-        // Without a branch: which way a front advances is not to be foreseen.
+      auto const [at, label] = queue[i];
+      labels[at] = label;
+      for (Position const step : neighbours) {
+        // Without a branch, but in bits, for else compilers make one: which way a front advances
+        // is not to be foreseen.
         Position const next = at + step;
-        bool const is_taken = worth[next] >= least;
-        worth[next] = is_taken ? std::uint8_t{0} : worth[next];
-        labels[next] = is_taken ? label : labels[next];
-        queue[end] = next;
-        end += is_taken ? 1 : 0;
+        unsigned const is_taken = worth[next] >= least ? 1 : 0;
+        worth[next] &= static_cast<std::uint8_t>(is_taken - 1U);
+        queue[end] = {next, label};
+        end += is_taken;
       }
     }
   }
@@ -186,25 +195,33 @@ private:
     std::array<std::vector<Position>, kFloodCost> buckets;
     for_each_front(kValid, [&](Position at) { buckets[0].push_back(at); });
     for (std::size_t key = 0; key < buckets.size(); ++key) {
-      auto const take = [&](Position at, Position next, int link) {
-        int const cost = costs[next] & kFloodCost;
-        if (cost == 0 || (kAlongSurfaces && link == 0)) {
-          return;
-        }
-        costs[next] &= static_cast<std::uint8_t>(~kFloodCost);
-        worth[next] = 0;
-        labels[next] = labels[at];
-        buckets[std::max(key, static_cast<std::size_t>(cost - 1))].push_back(next);
-      };
       for (std::size_t i = 0; i < buckets[key].size(); ++i) {
         Position const at = buckets[key][i];
-        auto const [left, right, up, down] = neighbours_;
-        take(at, at + left, costs[at + left] & kLinkedRight);
-        take(at, at + right, costs[at] & kLinkedRight);
-        take(at, at + up, costs[at + up] & kLinkedDown);
-        take(at, at + down, costs[at] & kLinkedDown);
+        // All four at once: each by itself would be a branch that is not to be foreseen.
+        for (unsigned open = open_neighbours<kAlongSurfaces>(costs + at); open != 0;
+             open &= open - 1) {
+          Position const next = at + neighbours_[static_cast<std::size_t>(std::countr_zero(open))];
+          std::size_t const cost = costs[next] & kFloodCost;
+          costs[next] &= static_cast<std::uint8_t>(~kFloodCost);
+          worth[next] = 0;
+          labels[next] = labels[at];
+          buckets[std::max(key, cost - 1)].push_back(next);
+        }
       }
     }
+  }
+
+  /// One bit for each of a pixel's neighbours, set where a flood may go on to it.
+  template <bool kAlongSurfaces>
+  [[nodiscard]] unsigned open_neighbours(std::uint8_t const* cost) const {
+    auto const [left, right, up, down] = neighbours_;
+    auto const is_open = [&](Position step, unsigned link) {
+      bool const is_linked = !kAlongSurfaces || link != 0;
+      return static_cast<unsigned>(is_linked) &
+             static_cast<unsigned>((cost[step] & kFloodCost) != 0);
+    };
+    return is_open(left, cost[left] & kLinkedRight) | is_open(right, *cost & kLinkedRight) << 1U |
+           is_open(up, cost[up] & kLinkedDown) << 2U | is_open(down, *cost & kLinkedDown) << 3U;
   }
 
   SurfaceMap const& map_;
@@ -218,7 +235,7 @@ private:
   std::int32_t next_ = 1;
   std::vector<Run> runs_;
   /// Room for every pixel and one more; not a vector: that would write all of it.
-  std::unique_ptr<Position[]> queue_;
+  std::unique_ptr<Taken[]> queue_;
 };
 
 }  // namespace

@@ -4,11 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <utility>
 
-#include "stages/segments/label_runs.hpp"
-#include "stages/segments/row_bits.hpp"
 #include "stages/segments/segments.hpp"
 
 namespace credo::segments {
@@ -22,13 +19,13 @@ Meeting turned(Meeting meeting) {
 
 class OutlineBuilder {
 public:
-  OutlineBuilder(Segments const& segments, Grid<float> const& depth_m, float link_per_m)
+  OutlineBuilder(Segments const& segments, LabelledRows const& rows, Grid<float> const& depth_m,
+                 float link_per_m)
       : labels_(segments.labels),
+        rows_(rows),
         depth_m_(depth_m),
         link_per_m_(link_per_m),
-        outlines_(segments.pixel_counts.size() + 1),
-        runs_(labels_.width()),
-        borders_(labels_.width()) {
+        outlines_(segments.pixel_counts.size() + 1) {
     for (std::size_t i = 0; i < segments.pixel_counts.size(); ++i) {
       outlines_[i + 1].pixels = segments.pixel_counts[i];
     }
@@ -74,28 +71,27 @@ private:
 
   /// The runs of a row, and what is between them.
   void look_along(int v) {
-    std::span<std::int32_t const> const row = labels_.row(v);
-    runs_.find(row);
-    for (std::size_t begin = 0; begin < row.size();) {
-      auto const first = static_cast<int>(begin);
-      std::int32_t const label = row[begin];
-      begin = runs_.end(begin);
-      auto const next = static_cast<int>(begin);
-      if (label != 0) {
-        outline(label).box.add({{first, v}, {next - 1, v}});
+    for (LabelRun const& run : rows_.row(v)) {
+      if (run.label != 0) {
+        outline(run.label).box.add({{run.begin, v}, {run.end - 1, v}});
       }
-      if (begin < row.size()) {
-        look({next - 1, v}, {next, v});
+      if (run.end < labels_.width()) {
+        look({run.end - 1, v}, {run.end, v});
       }
     }
   }
 
   void look_up(int v) {
-    int const width = labels_.width();
-    mark_different(labels_.row(v - 1).data(), labels_.row(v).data(),
-                   static_cast<std::size_t>(width), borders_.data());
-    for (int u = borders_.next_set(0); u < width; u = borders_.next_set(u + 1)) {
-      look({u, v - 1}, {u, v});
+    auto above = rows_.row(v - 1).begin();
+    for (LabelRun const& run : rows_.row(v)) {
+      for (int u = run.begin; u < run.end;) {
+        int const end = std::min(run.end, above->end);
+        for (; u < end && above->label != run.label; ++u) {
+          look({u, v - 1}, {u, v});
+        }
+        u = end;
+        above += above->end == end ? 1 : 0;
+      }
     }
   }
 
@@ -117,12 +113,11 @@ private:
   }
 
   Grid<std::int32_t> const& labels_;
+  LabelledRows const& rows_;
   Grid<float> const& depth_m_;
   float link_per_m_;
   std::vector<Outline> outlines_;
   std::array<Recent, kRecent> recent_;
-  LabelRuns runs_;
-  RowBits borders_;
 };
 
 }  // namespace
@@ -156,9 +151,9 @@ void Meeting::add(Meeting const& other) {
   touch.add(other.touch);
 }
 
-std::vector<Outline> outlines_of(Segments const& segments, Grid<float> const& depth_m,
-                                 float link_per_m) {
-  return OutlineBuilder(segments, depth_m, link_per_m).outlines();
+std::vector<Outline> outlines_of(Segments const& segments, LabelledRows const& rows,
+                                 Grid<float> const& depth_m, float link_per_m) {
+  return OutlineBuilder(segments, rows, depth_m, link_per_m).outlines();
 }
 
 std::uint32_t least_touching_pairs(double focal_px) {

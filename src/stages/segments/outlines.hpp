@@ -6,6 +6,7 @@
 
 #include "core/grid.hpp"
 #include "core/segments.hpp"
+#include "stages/segments/labelled_rows.hpp"
 
 namespace credo::segments {
 
@@ -45,8 +46,9 @@ struct Outline {
 
 /// By label; the first belongs to none. Neighbours touch where their inverse depths differ by less
 /// than `link_per_m`. Pixels without a segment are beside nothing.
-[[nodiscard]] std::vector<Outline> outlines_of(Segments const& segments, Grid<float> const& depth_m,
-                                               float link_per_m);
+/// `rows` are those of the segments' labels.
+[[nodiscard]] std::vector<Outline> outlines_of(Segments const& segments, LabelledRows const& rows,
+                                               Grid<float> const& depth_m, float link_per_m);
 
 /// So many pairs that touch are no accident.
 [[nodiscard]] std::uint32_t least_touching_pairs(double focal_px);

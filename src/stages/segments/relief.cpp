@@ -6,11 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "stages/segments/flat_surface.hpp"
-#include "stages/segments/label_runs.hpp"
+#include "stages/segments/labelled_rows.hpp"
 #include "stages/segments/relief_kernels.hpp"
 
 namespace credo::segments {
@@ -40,14 +39,13 @@ class Relief {
 public:
   Relief(Segments const& segments, Grid<float> const& depth_m, double focal_px,
          SegmentsConfig const& config)
-      : segments_(segments),
-        depth_m_(depth_m),
+      : depth_m_(depth_m),
         per_px_(1.0 / std::max(depth_m.width(), 1)),
         quantum_per_m_(config.quantum_per_m),
         raised_quanta_(config.raised_quanta),
-        surfaces_(flat_surfaces(segments, depth_m, config.quantum_per_m,
+        rows_(segments.labels),
+        surfaces_(flat_surfaces(segments, rows_, depth_m, config.quantum_per_m,
                                 kSurface_px * std::pow(focal_px / kReferenceFocal_px, 2))),
-        runs_(depth_m.width()),
         run_heights_(static_cast<std::size_t>(depth_m.width()) + 2 * kMargin_px) {}
 
   [[nodiscard]] PaddedGrid<float> heights() && {
@@ -77,20 +75,19 @@ private:
   /// Run by run from the left: what a kernel writes beyond one is in none or overwritten.
   void fill(int v, RowSums& row) {
     std::ranges::fill(row.surface, 0);
-    std::span<std::int32_t const> const labels = segments_.labels.row(v);
-    runs_.find(labels);
     float* const heights = run_heights_.data() + 1;
-    for (std::size_t begin = 0, end = 0; begin < labels.size(); begin = end) {
-      end = runs_.end(begin);
-      auto const& surface = surfaces_[static_cast<std::size_t>(labels[begin])];
+    for (LabelRun const& run : rows_.row(v)) {
+      auto const& surface = surfaces_[static_cast<std::size_t>(run.label)];
       if (!surface) {
         continue;
       }
+      auto const begin = static_cast<std::size_t>(run.begin);
+      auto const end = static_cast<std::size_t>(run.end);
       std::size_t const n = end - begin;
       height_row(depth_m_.row(v).data() + begin, along_row(*surface, v, begin), n, heights);
       heights[n] = 0.0F;
       sum_row(heights, n, row.sums.data() + begin);
-      std::fill_n(row.surface.begin() + static_cast<std::ptrdiff_t>(begin), n, labels[begin]);
+      std::fill_n(row.surface.begin() + static_cast<std::ptrdiff_t>(begin), n, run.label);
       std::fill_n(row.counts.begin() + static_cast<std::ptrdiff_t>(begin), n, 3.0F);
       row.counts[begin] -= 1.0F;
       row.counts[end - 1] -= 1.0F;
@@ -113,14 +110,13 @@ private:
     };
   }
 
-  Segments const& segments_;
   Grid<float> const& depth_m_;
   double per_px_;
   double quantum_per_m_;
   double raised_quanta_;
+  LabelledRows rows_;
   /// By label.
   std::vector<std::optional<FlatSurface>> surfaces_;
-  LabelRuns runs_;
   /// Of one run, between a 0 to each side.
   std::vector<float> run_heights_;
 };

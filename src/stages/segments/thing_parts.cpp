@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/runs.hpp"
-#include "stages/segments/label_runs.hpp"
+#include "stages/segments/labelled_rows.hpp"
 #include "stages/segments/numbering.hpp"
 #include "stages/segments/outlines.hpp"
 #include "stages/segments/plane_fit.hpp"
@@ -19,7 +19,8 @@
 namespace credo {
 namespace {
 
-using segments::LabelRuns;
+using segments::LabelledRows;
+using segments::LabelRun;
 using segments::Meeting;
 using segments::Outline;
 using segments::PixelBox;
@@ -57,7 +58,7 @@ constexpr std::uint32_t kEnoughPixels = 4096;
 
 class PartJoiner {
 public:
-  PartJoiner(Segments const& segments, Grid<float> const& depth_m,
+  PartJoiner(Segments const& segments, LabelledRows const& rows, Grid<float> const& depth_m,
              CameraIntrinsics const& intrinsics, std::optional<Eigen::Vector3d> const& up_camera,
              SegmentsConfig const& config)
       : segments_(segments),
@@ -67,8 +68,9 @@ public:
         quantum_per_m_(config.quantum_per_m),
         disc_px_(static_cast<int>(std::lround(scaled(config.disc_radius_px)))),
         least_pairs_(segments::least_touching_pairs(intrinsics.fx_px)),
-        outlines_(segments::outlines_of(
-            segments, depth_m, static_cast<float>(config.link_quanta * config.quantum_per_m))),
+        outlines_(
+            segments::outlines_of(segments, rows, depth_m,
+                                  static_cast<float>(config.link_quanta * config.quantum_per_m))),
         root_(outlines_.size()) {
     std::iota(root_.begin(), root_.end(), 0);
   }
@@ -375,17 +377,15 @@ private:
 Segments join_parts(Segments segments, Grid<float> const& depth_m,
                     CameraIntrinsics const& intrinsics,
                     std::optional<Eigen::Vector3d> const& up_camera, SegmentsConfig const& config) {
+  LabelledRows const rows(segments.labels);
   segments::Numbering numbering(
-      PartJoiner(segments, depth_m, intrinsics, up_camera, config).joined());
-  LabelRuns runs(segments.labels.width());
+      PartJoiner(segments, rows, depth_m, intrinsics, up_camera, config).joined());
   for (int v = 0; v < segments.labels.height(); ++v) {
     std::span<std::int32_t> const row = segments.labels.row(v);
-    runs.find(row);
-    for (std::size_t begin = 0, end = 0; begin < row.size(); begin = end) {
-      end = runs.end(begin);
-      std::int32_t const number = numbering.number(row[begin], end - begin);
-      if (row[begin] != number) {
-        std::ranges::fill(row.subspan(begin, end - begin), number);
+    for (auto const [begin, end, label] : rows.row(v)) {
+      std::int32_t const number = numbering.number(label, static_cast<std::size_t>(end - begin));
+      if (label != number) {
+        std::fill(row.begin() + begin, row.begin() + end, number);
       }
     }
   }

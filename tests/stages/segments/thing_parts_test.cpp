@@ -329,6 +329,7 @@ TEST(JoinParts, NothingIsNoError) {
 
 namespace outlines {
 
+using segments::LabelledRows;
 using segments::Meeting;
 using segments::Outline;
 
@@ -360,7 +361,8 @@ TEST(Outlines, AreThePairsOfNeighbours) {
   Grid<float> const depth_m = table.depth_m(true);
   constexpr float kLink_per_m = 0.026F;
   Segments const segments = convex_segments(depth_m, kinect_intrinsics().fx_px, {});
-  std::vector<Outline> const outlines = segments::outlines_of(segments, depth_m, kLink_per_m);
+  std::vector<Outline> const outlines =
+      segments::outlines_of(segments, LabelledRows(segments.labels), depth_m, kLink_per_m);
   decltype(literal_meetings(segments, depth_m, kLink_per_m)) found;
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     for (auto const& [other, meeting] : outlines[i].meetings) {
@@ -379,7 +381,8 @@ TEST(Outlines, OfJoinedSegmentsAreThoseOfTheirUnion) {
   segments.labels = Grid<std::int32_t>(2, 2, std::vector<std::int32_t>{1, 2, 3, 3});
   segments.pixel_counts = {1, 1, 2};
   Grid<float> const depth_m(2, 2, std::vector<float>{1.0F, 2.0F, 1.0F, 1.0F});
-  std::vector<Outline> outlines = segments::outlines_of(segments, depth_m, 0.1F);
+  std::vector<Outline> outlines =
+      segments::outlines_of(segments, LabelledRows(segments.labels), depth_m, 0.1F);
   EXPECT_EQ(outlines[1].meetings.at(2).before, 1U);
   EXPECT_EQ(outlines[2].meetings.at(3).behind, 1U);
   segments::join_outlines(outlines, 1, 3);
