@@ -83,6 +83,16 @@ double KnownPlaces::share_known(std::span<Eigen::Vector3f const> points_world,
              : static_cast<double>(known) / static_cast<double>(points_world.size());
 }
 
+double KnownPlaces::share_on_walls(std::span<Eigen::Vector3f const> points_world) const {
+  if (walls_.empty() || points_world.empty()) {
+    return 0.0;
+  }
+  auto const there = std::ranges::count_if(points_world, [&](Eigen::Vector3f const& p_world) {
+    return has_wall_at(p_world.cast<double>());
+  });
+  return static_cast<double>(there) / static_cast<double>(points_world.size());
+}
+
 double KnownPlaces::share_left_behind(std::span<Eigen::Vector3f const> points_world) const {
   if (shown_.empty() || points_world.empty()) {
     return 0.0;

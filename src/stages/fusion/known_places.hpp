@@ -43,6 +43,8 @@ public:
   /// cabinet a wall seems to lie on it.
   [[nodiscard]] double share_known(std::span<Eigen::Vector3f const> points_world,
                                    bool may_be_object) const;
+  /// The part of the points that are on walls.
+  [[nodiscard]] double share_on_walls(std::span<Eigen::Vector3f const> points_world) const;
   /// The part of the points that a pose which is not quite right has left behind: two deviations of
   /// an object's place, at most, from where it is believed to have a surface on which nothing can
   /// lie, as it does not face up. Of objects that the frame shows.

@@ -34,8 +34,6 @@ constexpr double kOneToOne = 0.7;
 constexpr int kLargeBlocks = 200;
 // Merging.
 constexpr double kLeastShown = 0.32;
-// A cluster that things explain by so much is none of its own.
-constexpr double kExplained = 0.7;
 
 class Fusing {
 public:
@@ -51,7 +49,7 @@ public:
         view_(segmentation.sight, segmentation.T_world_camera),
         looks_(segmentation.sight, segmentation.T_world_camera, known_.stuff),
         clusters_(clusters_of(segmentation)),
-        owners_(looks_.looks(), clusters_),
+        owners_(looks_.looks(), clusters_, places),
         news_(known_.stuff.size(), 0.0) {
     for (StuffBelief& item : known_.stuff) {
       item.joined_ids.clear();

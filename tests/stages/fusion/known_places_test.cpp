@@ -33,6 +33,13 @@ TEST(KnownPlaces, WallsGoOnALittleBeyondTheirEnds) {
   EXPECT_FALSE(places.has_object_at({1, 2, 0.5}));
 }
 
+TEST(KnownPlaces, ShareOfPointsThatAreOnWalls) {
+  std::vector<Eigen::Vector3f> const points = {{1, 2, 0.5F}, {1, 1.9F, 0.5F}};
+  EXPECT_EQ(KnownPlaces(with_wall(), {}).share_on_walls(points), 0.5);
+  EXPECT_EQ(KnownPlaces(with_wall(), {}).share_on_walls({}), 0.0);
+  EXPECT_EQ(KnownPlaces({}, {}).share_on_walls(points), 0.0);
+}
+
 // 1.5 cm + 1.5 mm at one metre, 2.1 cm at two.
 TEST(KnownPlaces, ToleranceGrowsAsNoiseDoes) {
   KnownPlaces const places(with_wall(), {});
