@@ -25,7 +25,7 @@ ClusterOwners::ClusterOwners(std::vector<StuffLook> const& looks,
       best_(clusters.size(), 0.0) {
   on_wall_.reserve(clusters.size());
   for (SeenCluster const& cluster : clusters) {
-    on_wall_.push_back(places.share_on_walls(cluster.points_world) > kExplained);
+    on_wall_.push_back(places.are_on_walls(cluster.points_world, kExplained));
   }
   // First what lies on nothing: a thing that lies on another is not that one.
   associate(false);
@@ -35,6 +35,10 @@ ClusterOwners::ClusterOwners(std::vector<StuffLook> const& looks,
 std::optional<std::size_t> ClusterOwners::owner(LabelCode label) const {
   std::int32_t const owner = owners_[place_of(label)];
   return owner < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(owner));
+}
+
+bool ClusterOwners::is_walls(LabelCode label) const {
+  return on_wall_[place_of(label)] && !owner(label);
 }
 
 void ClusterOwners::give(LabelCode label, std::size_t item) {

@@ -30,6 +30,8 @@ public:
 
   /// By its place in the belief; none for a cluster that is no thing's yet.
   [[nodiscard]] std::optional<std::size_t> owner(LabelCode label) const;
+  /// Whether a cluster is no thing's and lies, for the most part, on a believed wall.
+  [[nodiscard]] bool is_walls(LabelCode label) const;
   void give(LabelCode label, std::size_t item);
   /// It is no thing's any more.
   void release(LabelCode label);

@@ -6,15 +6,6 @@
 #include "stages/fusion/points.hpp"
 
 namespace credo {
-namespace {
-
-/// How far the mean of many blocks may be off their plane: a third of the noise of one is left.
-double mean_tolerance_m(double squared_distance_m2) {
-  double const pose_m = surface_tolerance_m(0.0);
-  return pose_m + (surface_tolerance_m(squared_distance_m2) - pose_m) / 3.0;
-}
-
-}  // namespace
 
 ShownPlanes::ShownPlanes(Segmentation const& segmentation) : segmentation_(segmentation) {
   if (segmentation.floor) {

@@ -162,6 +162,10 @@ private:
       finding->verdict = Verdict::kGone;
       finding->stands = !shows_found_object(seen, segmentation_.sight.labels, places_);
       item.evidence = Evidence::kNotSeen;
+    } else if (!matched && shows_on_walls(item, seen, owners_)) {
+      // Whether it is the wall that shows, the frame does not tell.
+      finding.reset();
+      item.evidence = evidence_of(seen.counts, finding);
     }
     item.why = account_of(seen.counts, item.most_agreeing);
     Eigen::Vector3d const middle = item.latest().centroid_world.cast<double>();

@@ -102,6 +102,13 @@ TEST(StuffItems, WallBesideAThingIsNotTakenForIt) {
   EXPECT_GT(in_the_open.stuff[0].latest().bounds_world.max().x(), 0.5F);
 }
 
+// The same strip, when the thing's own place shows in it for the most part.
+TEST(StuffItems, OfWhatShowsInAWallsClusterNothingIsTold) {
+  Board const strip{kFirst, -0.2, 0.0, 0.8, 0.2, 1.5};
+  EXPECT_EQ(shown_at_wall(true, strip, 0.0).stuff.at(0).why.news, 0.0);
+  EXPECT_GT(shown_at_wall(false, strip, 0.0).stuff.at(0).why.news, 0.0);
+}
+
 // However near to the wall it is measured.
 TEST(StuffItems, WhatIsAThingForTheMostPartIsThatOnAWallToo) {
   Board const itself{kFirst, -0.2, 0.0, 0.2, 0.2, 1.49};
