@@ -18,11 +18,15 @@ std::size_t place_of(LabelCode label) {
 }  // namespace
 
 ClusterOwners::ClusterOwners(std::vector<StuffLook> const& looks,
-                             std::vector<SeenCluster> const& clusters)
+                             std::vector<SeenCluster> const& clusters, KnownPlaces const& places)
     : looks_(looks),
       clusters_(clusters),
       owners_(clusters.size(), -1),
       best_(clusters.size(), 0.0) {
+  on_wall_.reserve(clusters.size());
+  for (SeenCluster const& cluster : clusters) {
+    on_wall_.push_back(places.are_on_walls(cluster.points_world, kExplained));
+  }
   // First what lies on nothing: a thing that lies on another is not that one.
   associate(false);
   associate(true);
@@ -31,6 +35,10 @@ ClusterOwners::ClusterOwners(std::vector<StuffLook> const& looks,
 std::optional<std::size_t> ClusterOwners::owner(LabelCode label) const {
   std::int32_t const owner = owners_[place_of(label)];
   return owner < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(owner));
+}
+
+bool ClusterOwners::is_walls(LabelCode label) const {
+  return on_wall_[place_of(label)] && !owner(label);
 }
 
 void ClusterOwners::give(LabelCode label, std::size_t item) {
@@ -62,6 +70,10 @@ std::optional<double> ClusterOwners::overlap_of(std::size_t item, ClusterShare c
   bool const enough = blocks > kLeastShareOfCluster * static_cast<double>(area) ||
                       blocks > kLeastShareOfThing * looks_[item].blocks;
   if (share.agreement() < kLeastAgreementOfCluster || area < kLeastBlocksOfThing || !enough) {
+    return std::nullopt;
+  }
+  // The wall has most of it: what has less does not get it.
+  if (on_wall_[place_of(share.label)] && blocks <= kExplained * static_cast<double>(area)) {
     return std::nullopt;
   }
   return blocks / (all - blocks);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/label.hpp"
+#include "stages/fusion/known_places.hpp"
 #include "stages/fusion/stuff_looks.hpp"
 #include "stages/fusion/stuff_moves.hpp"
 
@@ -13,6 +14,8 @@ namespace credo {
 
 /// What a cluster must have, in blocks, to be a thing.
 inline constexpr std::size_t kLeastBlocksOfThing = 12;
+/// A cluster that is explained by so much is none of its own.
+inline constexpr double kExplained = 0.7;
 /// A cluster can be a thing's where so much of what the thing should show there agrees.
 inline constexpr double kLeastAgreementOfCluster = 0.25;
 
@@ -22,10 +25,13 @@ class ClusterOwners {
 public:
   /// Looks in the order of the belief, clusters by label from kFirstStuff on; both are kept by
   /// reference.
-  ClusterOwners(std::vector<StuffLook> const& looks, std::vector<SeenCluster> const& clusters);
+  ClusterOwners(std::vector<StuffLook> const& looks, std::vector<SeenCluster> const& clusters,
+                KnownPlaces const& places);
 
   /// By its place in the belief; none for a cluster that is no thing's yet.
   [[nodiscard]] std::optional<std::size_t> owner(LabelCode label) const;
+  /// Whether a cluster is no thing's and lies, for the most part, on a believed wall.
+  [[nodiscard]] bool is_walls(LabelCode label) const;
   void give(LabelCode label, std::size_t item);
   /// It is no thing's any more.
   void release(LabelCode label);
@@ -39,6 +45,8 @@ private:
 
   std::vector<StuffLook> const& looks_;
   std::vector<SeenCluster> const& clusters_;
+  /// By cluster, whether the most of it lies on a believed wall.
+  std::vector<bool> on_wall_;
   /// By cluster; -1 for none.
   std::vector<std::int32_t> owners_;
   /// By cluster, what it and its owner have in common.

@@ -83,6 +83,23 @@ double KnownPlaces::share_known(std::span<Eigen::Vector3f const> points_world,
              : static_cast<double>(known) / static_cast<double>(points_world.size());
 }
 
+bool KnownPlaces::are_on_walls(std::span<Eigen::Vector3f const> points_world, double share) const {
+  std::size_t there = 0;
+  double before_m = 0.0;
+  for (Eigen::Vector3f const& point : points_world) {
+    Eigen::Vector3d const p_world = point.cast<double>();
+    if (Strip const* const wall = wall_at(p_world)) {
+      Plane const& plane = wall->plane_world;
+      ++there;
+      before_m += std::copysign(1.0, plane.signed_distance_m(camera_world_)) *
+                      plane.signed_distance_m(p_world) -
+                  mean_tolerance_m((p_world - camera_world_).squaredNorm());
+    }
+  }
+  return static_cast<double>(there) > share * static_cast<double>(points_world.size()) &&
+         before_m <= 0.0;
+}
+
 double KnownPlaces::share_left_behind(std::span<Eigen::Vector3f const> points_world) const {
   if (shown_.empty() || points_world.empty()) {
     return 0.0;
@@ -109,13 +126,23 @@ double KnownPlaces::share_free_before(std::span<Eigen::Vector3f const> points_wo
   return told < kLeastPoints ? 0.0 : static_cast<double>(free) / told;
 }
 
-bool KnownPlaces::has_wall_at(Eigen::Vector3d const& p_world) const {
-  double const tolerance_m = noise_m(p_world);
-  return std::ranges::any_of(walls_, [&](Strip const& wall) {
+KnownPlaces::Strip const* KnownPlaces::wall_at(Eigen::Vector3d const& p_world) const {
+  double nearest_m = noise_m(p_world);
+  Strip const* nearest = nullptr;
+  for (Strip const& wall : walls_) {
     double const along_m = wall.direction.dot(p_world.head<2>() - wall.start_m);
-    return std::abs(wall.plane_world.signed_distance_m(p_world)) < tolerance_m &&
-           along_m > -kBeyondEnd_m && along_m < wall.length_m + kBeyondEnd_m;
-  });
+    double const distance_m = std::abs(wall.plane_world.signed_distance_m(p_world));
+    if (distance_m < nearest_m && along_m > -kBeyondEnd_m &&
+        along_m < wall.length_m + kBeyondEnd_m) {
+      nearest_m = distance_m;
+      nearest = &wall;
+    }
+  }
+  return nearest;
+}
+
+bool KnownPlaces::has_wall_at(Eigen::Vector3d const& p_world) const {
+  return wall_at(p_world) != nullptr;
 }
 
 bool KnownPlaces::has_floor_at(Eigen::Vector3d const& p_world) const {

@@ -43,6 +43,10 @@ public:
   /// cabinet a wall seems to lie on it.
   [[nodiscard]] double share_known(std::span<Eigen::Vector3f const> points_world,
                                    bool may_be_object) const;
+  /// Whether so much of the points and more is on walls, and does not stand before them on the
+  /// mean: by more than 1.5 cm + 0.5 mm/m^2 times the squared distance.
+  [[nodiscard]] bool are_on_walls(std::span<Eigen::Vector3f const> points_world,
+                                  double share) const;
   /// The part of the points that a pose which is not quite right has left behind: two deviations of
   /// an object's place, at most, from where it is believed to have a surface on which nothing can
   /// lie, as it does not face up. Of objects that the frame shows.
@@ -68,6 +72,8 @@ private:
     double log_odds = 0.0;
   };
 
+  /// The wall that has_wall_at means, the nearest of several; null where there is none.
+  [[nodiscard]] Strip const* wall_at(Eigen::Vector3d const& p_world) const;
   static void add_known(std::vector<Place>& places, KnownSurface const& surface,
                         PoseDistribution const& pose_world, double log_odds);
   [[nodiscard]] bool is_at(Place const& place, Eigen::Vector3d const& p_world) const;

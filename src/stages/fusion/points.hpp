@@ -31,6 +31,12 @@ namespace credo {
   return kNearest_m + kPerSquareMetre * squared_distance_m2;
 }
 
+/// The same of the mean of many: what poses are off, and a third of the noise.
+[[nodiscard]] inline double mean_tolerance_m(double squared_distance_m2) {
+  double const pose_m = surface_tolerance_m(0.0);
+  return pose_m + (surface_tolerance_m(squared_distance_m2) - pose_m) / 3.0;
+}
+
 /// The union on a grid, at most `max_points`: cells found after that are left out. Where nothing is
 /// new it is the same set, still shared with the beliefs before.
 [[nodiscard]] inline std::shared_ptr<PointList const> grown_points(

@@ -22,6 +22,17 @@ bool shows_known(StuffBelief const& item, StuffLook const& look, ShownPlanes con
          planes.are_what_shows(look);
 }
 
+bool shows_on_walls(StuffBelief const& item, StuffLook const& look, ClusterOwners const& owners) {
+  int known = 0;
+  int on_walls = 0;
+  for (ClusterShare const& share : look.shares) {
+    bool const is_walls = is_stuff(share.label) && owners.is_walls(share.label);
+    on_walls += is_walls ? share.blocks : 0;
+    known += is_walls || share.label == kFloor ? share.blocks : 0;
+  }
+  return on_walls > 0 && mostly_in(item, look, known);
+}
+
 bool shows_found_object(StuffLook const& look, LabelMap const& shown, KnownPlaces const& places) {
   int found = 0;
   int agreeing = 0;

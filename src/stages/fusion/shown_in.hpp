@@ -19,6 +19,10 @@ namespace credo {
 [[nodiscard]] bool shows_known(StuffBelief const& item, StuffLook const& look,
                                ShownPlanes const& planes);
 
+/// Whether most of it shows so or in clusters that are a believed wall's, some of it in those.
+[[nodiscard]] bool shows_on_walls(StuffBelief const& item, StuffLook const& look,
+                                  ClusterOwners const& owners);
+
 /// Whether what shows is, for the most part, a known object that the frame before did not show.
 /// That is found since, and no other name for what was in sight already. `shown` has each block's
 /// label.

@@ -34,8 +34,6 @@ constexpr double kOneToOne = 0.7;
 constexpr int kLargeBlocks = 200;
 // Merging.
 constexpr double kLeastShown = 0.32;
-// A cluster that things explain by so much is none of its own.
-constexpr double kExplained = 0.7;
 
 class Fusing {
 public:
@@ -51,7 +49,7 @@ public:
         view_(segmentation.sight, segmentation.T_world_camera),
         looks_(segmentation.sight, segmentation.T_world_camera, known_.stuff),
         clusters_(clusters_of(segmentation)),
-        owners_(looks_.looks(), clusters_),
+        owners_(looks_.looks(), clusters_, places),
         news_(known_.stuff.size(), 0.0) {
     for (StuffBelief& item : known_.stuff) {
       item.joined_ids.clear();
@@ -164,6 +162,10 @@ private:
       finding->verdict = Verdict::kGone;
       finding->stands = !shows_found_object(seen, segmentation_.sight.labels, places_);
       item.evidence = Evidence::kNotSeen;
+    } else if (!matched && shows_on_walls(item, seen, owners_)) {
+      // Whether it is the wall that shows, the frame does not tell.
+      finding.reset();
+      item.evidence = evidence_of(seen.counts, finding);
     }
     item.why = account_of(seen.counts, item.most_agreeing);
     Eigen::Vector3d const middle = item.latest().centroid_world.cast<double>();

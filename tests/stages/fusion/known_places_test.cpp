@@ -33,6 +33,24 @@ TEST(KnownPlaces, WallsGoOnALittleBeyondTheirEnds) {
   EXPECT_FALSE(places.has_object_at({1, 2, 0.5}));
 }
 
+// Each point within 2.1 cm, and the mean of those that are within 1.7 cm before it.
+TEST(KnownPlaces, WhatIsOnAWallDoesNotStandBeforeItOnTheMean) {
+  auto const are_on_walls = [](BeliefState const& belief, std::vector<float> const& before_m) {
+    std::vector<Eigen::Vector3f> points;
+    for (float const off_m : before_m) {
+      points.emplace_back(0.1F, 2.0F - off_m, 0.0F);
+    }
+    return KnownPlaces(belief, {}).are_on_walls(points, 0.6);
+  };
+  EXPECT_TRUE(are_on_walls(with_wall(), {0.0F, 0.0F, 0.1F}));
+  EXPECT_FALSE(are_on_walls(with_wall(), {0.0F, 0.1F})) << "too few";
+  EXPECT_TRUE(are_on_walls(with_wall(), {0.019F, 0.013F}));
+  EXPECT_FALSE(are_on_walls(with_wall(), {0.019F, 0.018F}));
+  EXPECT_TRUE(are_on_walls(with_wall(), {-0.019F, -0.018F})) << "behind it";
+  EXPECT_FALSE(are_on_walls({}, {0.0F}));
+  EXPECT_FALSE(are_on_walls(with_wall(), {}));
+}
+
 // 1.5 cm + 1.5 mm at one metre, 2.1 cm at two.
 TEST(KnownPlaces, ToleranceGrowsAsNoiseDoes) {
   KnownPlaces const places(with_wall(), {});

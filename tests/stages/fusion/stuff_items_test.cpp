@@ -280,6 +280,8 @@ TEST(StuffItems, WhatShowsAsAPlaneButStandsBeforeItIsSeen) {
   for (LabelCode const label : {kFloor, kFirstWall}) {
     EXPECT_TRUE(shown_as_known(label, 1.5).stuff.empty());
     EXPECT_TRUE(shown_as_known(label, 1.515).stuff.empty()) << "noise";
+    EXPECT_EQ(shown_as_known(label, 1.517).stuff.size(), 1U) << "so far off by noise is one pixel";
+    EXPECT_TRUE(shown_as_known(label, 1.483).stuff.empty()) << "nothing stands behind a wall";
     FusedStuff const before_it = shown_as_known(label, 1.53);
     ASSERT_EQ(before_it.stuff.size(), 1U);
     EXPECT_EQ(before_it.stuff[0].evidence, Evidence::kSeen);
