@@ -38,6 +38,7 @@ constexpr std::size_t kLeastPoints = 12;
 struct Surface {
   std::vector<Vector3d> points_m;
   PixelBox box;
+  segments::PlaneFit plane;
   Vector3d normal_per_m = Vector3d::Zero();
   /// As far as the plane faces up.
   double upward_cosine = 0.0;
@@ -69,11 +70,7 @@ public:
       }
     }
     for (Surface& surface : surfaces_) {
-      segments::PlaneFit plane;
-      for (Vector3d const& point_m : surface.points_m) {
-        plane.add(point_m / point_m.z(), 1.0 / point_m.z());
-      }
-      surface.normal_per_m = plane.normal_per_m();
+      surface.normal_per_m = surface.plane.normal_per_m();
       surface.upward_cosine = segments::upward_cosine(surface.normal_per_m, up_camera);
       surface.box = surface.box.grown(rows_px, depth_m.width(), depth_m.height());
     }
@@ -102,8 +99,10 @@ private:
     surface.box.add({first, last});
     for (int const u : {first.u, (first.u + last.u) / 2, last.u}) {
       auto const z_m = static_cast<double>(depth_m_[Pixel{u, first.v}]);
-      surface.points_m.emplace_back((u - intrinsics_.cx_px) / intrinsics_.fx_px * z_m,
-                                    (first.v - intrinsics_.cy_px) / intrinsics_.fy_px * z_m, z_m);
+      Vector3d const ray((u - intrinsics_.cx_px) / intrinsics_.fx_px,
+                         (first.v - intrinsics_.cy_px) / intrinsics_.fy_px, 1.0);
+      surface.plane.add(ray, 1.0 / z_m);
+      surface.points_m.emplace_back(ray * z_m);
     }
   }
 
