@@ -3,18 +3,24 @@
 #include <gmock/gmock.h>
 
 #include <optional>
-#include <set>
 
 #include "stages/segments/outlines.hpp"
+#include "stages/segments/schematic.hpp"
 #include "stages/segments/table.hpp"
 
 namespace credo {
 namespace {
 
 using Eigen::Vector3d;
+using test::flat_inside;
+using test::front;
+using test::hollow;
+using test::hollow_inside;
 using test::kinect_intrinsics;
 using test::label_at;
+using test::Schematic;
 using test::Table;
+using test::vessel;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
@@ -118,80 +124,6 @@ TEST(JoinParts, WhatTheImageCutsOffIsNoPart) {
   }
 }
 
-/// Rectangles before a background 1.5 m away, segment 1, each a segment of its own.
-class Schematic {
-public:
-  Schematic() : depth_m_(200, 150, 1.5F) { segments_.labels = Grid<std::int32_t>(200, 150, 1); }
-
-  /// Columns and rows from first to before last.
-  template <typename Depth>
-  void add(Pixel first, Pixel last, Depth const& depth_m) {
-    ++count_;
-    for (int v = first.v; v < last.v; ++v) {
-      for (int u = first.u; u < last.u; ++u) {
-        segments_.labels[Pixel{u, v}] = count_;
-        depth_m_[Pixel{u, v}] = static_cast<float>(depth_m(Pixel{u, v}));
-      }
-    }
-  }
-
-  /// Of what is there already.
-  template <typename Depth>
-  void add_depth(Pixel first, Pixel last, Depth const& depth_m) {
-    for (int v = first.v; v < last.v; ++v) {
-      for (int u = first.u; u < last.u; ++u) {
-        depth_m_[Pixel{u, v}] = static_cast<float>(depth_m(Pixel{u, v}));
-      }
-    }
-  }
-
-  /// Whether segments 2 and 3 become one.
-  [[nodiscard]] bool joins(std::optional<Vector3d> const& up) const {
-    Segments segments = segments_;
-    segments.pixel_counts.assign(static_cast<std::size_t>(count_), 0);
-    for (std::int32_t const label : segments.labels) {
-      ++segments.pixel_counts[static_cast<std::size_t>(label - 1)];
-    }
-    Segments const joined = join_parts(segments, depth_m_, {525.0, 525.0, 99.5, 74.5}, up, {});
-    std::set<std::int32_t> labels;
-    for (std::size_t i = 0; i < joined.labels.size(); ++i) {
-      if (segments.labels[i] == 2 || segments.labels[i] == 3) {
-        labels.insert(joined.labels[i]);
-      }
-    }
-    return labels.size() == 1;
-  }
-
-private:
-  Grid<float> depth_m_;
-  Segments segments_;
-  std::int32_t count_ = 1;
-};
-
-double front(Pixel) {
-  return 1.0;
-}
-double flat_inside(Pixel) {
-  return 1.1;
-}
-/// Deepest in the middle: it bends by 30 quanta to its ends, 40 pixels away.
-double hollow(double from_middle_px, double deepest_m) {
-  double const from_middle = from_middle_px / 40.0;
-  return 1.0 / (1.0 / deepest_m + 30.0 * 0.00287 * from_middle * from_middle);
-}
-double hollow_inside(Pixel p) {
-  return hollow(p.u - 99.5, 1.12);
-}
-
-/// A vessel's front, and what is seen over it.
-template <typename Depth>
-Schematic vessel(Depth const& inside_m, int front_rows = 30) {
-  Schematic picture;
-  picture.add({60, 70}, {140, 70 + front_rows}, front);
-  picture.add({60, 50}, {140, 70}, inside_m);
-  return picture;
-}
-
 TEST(JoinParts, AnInsideIsHollowNotTooLargeAndBehindNothingElse) {
   EXPECT_TRUE(vessel(hollow_inside).joins(std::nullopt));
   EXPECT_FALSE(vessel(flat_inside).joins(std::nullopt)) << "a box behind the front";
@@ -240,33 +172,6 @@ TEST(JoinParts, AnInsideIsNotFartherBehindItsOutsideThanBothAreLarge) {
   }
 }
 
-// A mug's inside goes on in its outside at both ends of what the rim hides.
-TEST(JoinParts, AnInsideThatGoesOnInItsOutsideIsLessHollow) {
-  auto const mug = [](double behind_m, double bend_quanta, Pixel table_first, Pixel table_last) {
-    Schematic picture = vessel([&](Pixel p) {
-      double const from_middle = (p.u - 99.5) / 40.0;
-      return 1.0 / (1.0 / behind_m + bend_quanta * 0.00287 * from_middle * from_middle);
-    });
-    for (Pixel const end : {Pixel{60, 70}, Pixel{124, 70}}) {
-      picture.add_depth(end, {end.u + 16, 72}, [&](Pixel) { return behind_m; });
-    }
-    picture.add_depth(table_first, table_last, [&](Pixel) { return behind_m; });
-    return picture.joins(std::nullopt);
-  };
-  EXPECT_TRUE(mug(1.1, 3, {0, 0}, {0, 0}));
-  EXPECT_FALSE(mug(1.1, 1.5, {0, 0}, {0, 0})) << "flat";
-  EXPECT_FALSE(mug(1.01, 3, {0, 0}, {0, 0})) << "the front hides nothing of it";
-  EXPECT_TRUE(mug(1.1, 3, {60, 40}, {80, 50})) << "touches what is beyond by little";
-  EXPECT_FALSE(mug(1.1, 3, {60, 40}, {110, 50})) << "and by more";
-}
-
-// Chairs behind a table are not its inside, however they bend.
-TEST(JoinParts, ATableTopHasNoInside) {
-  EXPECT_TRUE(vessel(hollow_inside).joins(Vector3d(0, -1, 0)));
-  // The front's normal is along the axis.
-  EXPECT_FALSE(vessel(hollow_inside).joins(Vector3d(0, 0, -1)));
-}
-
 TEST(JoinParts, AnAttachmentIsSmallAndTouchesWhereItMeets) {
   Vector3d const up(0, -1, 0);
   auto const body_with = [](Pixel last, auto const& handle_m) {
@@ -279,25 +184,6 @@ TEST(JoinParts, AnAttachmentIsSmallAndTouchesWhereItMeets) {
   EXPECT_FALSE(body_with({180, 92}, front).joins(up)) << "more than a quarter of it";
   EXPECT_FALSE(body_with({152, 92}, [](Pixel p) { return p.v < 86 ? 0.9 : 1.0; }).joins(up))
       << "in front of it, but for a corner";
-}
-
-// The camera looks straight down on a lid.
-TEST(JoinParts, WhatDoesNotRiseAboveALevelSurfaceIsItsRim) {
-  auto const lid_with = [](auto const& rim_m) {
-    Schematic picture;
-    picture.add({60, 70}, {140, 100}, front);
-    picture.add({140, 74}, {152, 92}, rim_m);
-    return picture.joins(Vector3d(0, 0, -1));
-  };
-  auto const raised = [](double quanta) {
-    return [=](Pixel) { return 1.0 / (1.0 + 0.00287 * quanta); };
-  };
-  EXPECT_TRUE(lid_with(front));
-  EXPECT_TRUE(lid_with(raised(1.5)));
-  EXPECT_TRUE(lid_with(raised(-4.0))) << "it hangs";
-  EXPECT_FALSE(lid_with(raised(2.5)));
-  EXPECT_FALSE(lid_with([&](Pixel p) { return p.u < 150 ? 1.0 : raised(2.5)(p); }))
-      << "a sixth of it";
 }
 
 TEST(JoinParts, TheResultIsNumberedInRasterOrder) {

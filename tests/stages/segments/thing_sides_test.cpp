@@ -107,13 +107,15 @@ TEST(JoinSides, WhatReachesOutFromUnderATopIsNoSide) {
 TEST(JoinSides, WhatIsSeenBeyondATopsFarEdgeIsNoSide) {
   Table table(0.9);
   table.add_box(0, 0, 0, {0.12, 0.055, 0.1});
-  table.add_ball(0, 0.14, 0.045);
+  // Of what stands behind it only the front counts.
+  table.add_box(0, 0.23, 0, {0.08, 0.054, 0.03});
   Segments const parts = labelled(table, table.depth_m(false), [](Vector3d const& at) {
-    return at.y() < 0.004 ? kTable : at.z() > 0.1005 ? kSide : kTop;
+    bool const front = at.z() > 0.1995 && at.z() < 0.2005 && at.y() > 0.004;
+    return front ? kSide : at.y() < 0.109 ? kTable : kTop;
   });
-  // So uncertain that all of the ball may be under the box's top.
+  // So uncertain that all of it may be under the box's top.
   SegmentsConfig config;
-  config.quantum_per_m = 0.06;
+  config.quantum_per_m = 0.1;
   EXPECT_FALSE(joins(parts, table.depth_m(false), table.up(), config));
 }
 
@@ -130,13 +132,30 @@ TEST(JoinSides, WhatStandsUnderATopAndDoesNotTouchItIsNoSide) {
 }
 
 TEST(JoinSides, WhatStandsOnATopIsNoSide) {
+  // In its middle, and at its far edge, where rays come through its plane beyond it.
+  for (double const ahead_m : {0.0, 0.06}) {
+    Table table(0.9);
+    table.add_box(0, 0, 0, {0.12, 0.055, 0.1});
+    table.add_box_at({0, 0.15, ahead_m}, 0, {0.04, 0.04, 0.04});
+    Segments const parts = labelled(table, table.depth_m(false), [](Vector3d const& at) {
+      return at.y() < 0.109 ? kTable : at.y() > 0.112 ? kSide : kTop;
+    });
+    EXPECT_FALSE(joins(parts, table.depth_m(false), table.up())) << ahead_m;
+  }
+}
+
+TEST(JoinSides, AStepIsNoSide) {
   Table table(0.9);
   table.add_box(0, 0, 0, {0.12, 0.055, 0.1});
-  table.add_box_at({0, 0.15, 0}, 0, {0.04, 0.04, 0.04});
+  table.add_box(0, -0.14, 0, {0.12, 0.05, 0.04});
   Segments const parts = labelled(table, table.depth_m(false), [](Vector3d const& at) {
-    return at.y() < 0.004 ? kTable : at.y() > 0.112 ? kSide : kTop;
+    bool const on_step = at.z() < -0.1005 && at.y() > 0.098;
+    return on_step ? kSide : at.y() < 0.1 || at.z() < -0.1005 ? kTable : kTop;
   });
-  EXPECT_FALSE(joins(parts, table.depth_m(false), table.up()));
+  // So uncertain that all of it may be under the box's top.
+  SegmentsConfig config;
+  config.quantum_per_m = 0.1;
+  EXPECT_FALSE(joins(parts, table.depth_m(false), table.up(), config));
 }
 
 TEST(JoinSides, WhatLiesOnTheTopStaysOnIt) {
