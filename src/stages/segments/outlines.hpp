@@ -50,6 +50,9 @@ struct Outline {
 [[nodiscard]] std::vector<Outline> outlines_of(Segments const& segments, LabelledRows const& rows,
                                                Grid<float> const& depth_m, float link_per_m);
 
+/// Surfaces that face up within 37 degrees carry what touches them.
+inline constexpr double kLevelCosine = 0.8;
+
 /// So many pairs that touch are no accident.
 [[nodiscard]] std::uint32_t least_touching_pairs(double focal_px);
 

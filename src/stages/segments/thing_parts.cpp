@@ -5,15 +5,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "core/plane.hpp"
 #include "core/runs.hpp"
+#include "geometry/ray_plane_fit.hpp"
 #include "stages/segments/labelled_rows.hpp"
 #include "stages/segments/numbering.hpp"
 #include "stages/segments/outlines.hpp"
-#include "stages/segments/plane_fit.hpp"
 #include "stages/segments/quadratic_fit.hpp"
 
 namespace credo {
@@ -110,7 +112,8 @@ private:
     }
     std::int32_t const outside = front->first;
     Labels const inside = is_seamed(label, outside) ? Labels{label} : hollow_within(label, outside);
-    if (!inside.empty() && !is_far_behind(inside, outside) && !is_table_top(outside)) {
+    if (!inside.empty() && !is_far_behind(inside, outside) &&
+        !(up_camera_ && is_table_top(outside))) {
       for (std::int32_t const part : inside) {
         join(outside, part);
       }
@@ -295,36 +298,35 @@ private:
   [[nodiscard]] bool stands_on(std::int32_t label, std::int32_t holder,
                                PixelBox const& touch) const {
     PixelBox const around = touch.grown(disc_px_, depth_m_.width(), depth_m_.height());
-    Eigen::Vector3d const plane_per_m = normal_per_m(holder, around, 1);
-    if (segments::upward_cosine(plane_per_m, *up_camera_) <= segments::kLevelCosine) {
+    std::optional<Plane> const plane = plane_of(holder, around, 1);
+    if (!plane || plane->normal.dot(*up_camera_) <= segments::kLevelCosine) {
       return false;
     }
     std::uint32_t above = 0;
     for_runs(label, outline(label).box, 1, [&](int v, int begin, int end) {
       for (int u = begin; u < end; ++u) {
-        double const on_plane_quanta = plane_per_m.dot(ray_at({u, v})) / quantum_per_m_;
-        above += quanta_at({u, v}) - on_plane_quanta > kOnIt_quanta ? 1U : 0U;
+        double const above_per_m = inverse_depth_error_per_m(*plane, point_m({u, v}));
+        above += above_per_m > kOnIt_quanta * quantum_per_m_ ? 1U : 0U;
       }
     });
     return above > kHardly * outline(label).pixels;
   }
 
   [[nodiscard]] bool is_table_top(std::int32_t label) const {
-    return up_camera_ &&
-           segments::upward_cosine(normal_per_m(label, outline(label).box, rows_apart(label)),
-                                   *up_camera_) > kTableTopCosine;
+    std::optional<Plane> const plane = plane_of(label, outline(label).box, rows_apart(label));
+    return plane && plane->normal.dot(*up_camera_) > kTableTopCosine;
   }
 
-  /// Of the plane that fits what of a segment is in a box.
-  [[nodiscard]] Eigen::Vector3d normal_per_m(std::int32_t label, PixelBox const& box,
-                                             int rows_apart) const {
-    segments::PlaneFit plane;
+  /// Of what of a segment is in a box, the plane, if it has one.
+  [[nodiscard]] std::optional<Plane> plane_of(std::int32_t label, PixelBox const& box,
+                                              int rows_apart) const {
+    RayPlaneFit fit;
     for_runs(label, box, rows_apart, [&](int v, int begin, int end) {
       for (int u = begin; u < end; ++u) {
-        plane.add(ray_at({u, v}), 1.0 / static_cast<double>(depth_m_[Pixel{u, v}]));
+        fit.add(point_m({u, v}));
       }
     });
-    return plane.normal_per_m();
+    return fit.plane();
   }
 
   /// Rows that tell enough of a segment: some thousand pixels.
@@ -348,9 +350,11 @@ private:
     }
   }
 
-  [[nodiscard]] Eigen::Vector3d ray_at(Pixel p) const {
-    return {(p.u - intrinsics_.cx_px) / intrinsics_.fx_px,
-            (p.v - intrinsics_.cy_px) / intrinsics_.fy_px, 1.0};
+  /// Camera frame.
+  [[nodiscard]] Eigen::Vector3d point_m(Pixel p) const {
+    auto const z_m = static_cast<double>(depth_m_[p]);
+    return {(p.u - intrinsics_.cx_px) / intrinsics_.fx_px * z_m,
+            (p.v - intrinsics_.cy_px) / intrinsics_.fy_px * z_m, z_m};
   }
   [[nodiscard]] double quanta_at(Pixel p) const {
     return 1.0 / (static_cast<double>(depth_m_[p]) * quantum_per_m_);

@@ -5,14 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "geometry/convex_hull.hpp"
+#include "geometry/ray_plane_fit.hpp"
 #include "stages/segments/label_runs.hpp"
 #include "stages/segments/outlines.hpp"
-#include "stages/segments/plane_fit.hpp"
 
 namespace credo {
 namespace {
@@ -38,10 +39,9 @@ constexpr std::size_t kLeastPoints = 12;
 struct Surface {
   std::vector<Vector3d> points_m;
   PixelBox box;
-  segments::PlaneFit plane;
-  Vector3d normal_per_m = Vector3d::Zero();
-  /// As far as the plane faces up.
-  double upward_cosine = 0.0;
+  RayPlaneFit fit;
+  /// If its points span one.
+  std::optional<Plane> plane;
 };
 
 /// Surfaces of all segments by label, and which of them are sides of which.
@@ -53,6 +53,7 @@ public:
       : segments_(segments),
         depth_m_(depth_m),
         intrinsics_(intrinsics),
+        up_camera_(up_camera),
         east_(up_camera.unitOrthogonal()),
         north_(up_camera.cross(east_)),
         config_(config),
@@ -70,8 +71,7 @@ public:
       }
     }
     for (Surface& surface : surfaces_) {
-      surface.normal_per_m = surface.plane.normal_per_m();
-      surface.upward_cosine = segments::upward_cosine(surface.normal_per_m, up_camera);
+      surface.plane = surface.fit.plane();
       surface.box = surface.box.grown(rows_px, depth_m.width(), depth_m.height());
     }
   }
@@ -81,7 +81,7 @@ public:
     Labels tops(surfaces_.size());
     std::iota(tops.begin(), tops.end(), 0);
     for (std::size_t top = 1; top < surfaces_.size(); ++top) {
-      if (is_known(top) && surfaces_[top].upward_cosine > kTopCosine) {
+      if (is_known(top) && upward_cosine(surfaces_[top]) > kTopCosine) {
         look_under(static_cast<std::int32_t>(top), tops);
       }
     }
@@ -99,16 +99,21 @@ private:
     surface.box.add({first, last});
     for (int const u : {first.u, (first.u + last.u) / 2, last.u}) {
       auto const z_m = static_cast<double>(depth_m_[Pixel{u, first.v}]);
-      Vector3d const ray((u - intrinsics_.cx_px) / intrinsics_.fx_px,
-                         (first.v - intrinsics_.cy_px) / intrinsics_.fy_px, 1.0);
-      surface.plane.add(ray, 1.0 / z_m);
-      surface.points_m.emplace_back(ray * z_m);
+      Vector3d const point_m((u - intrinsics_.cx_px) / intrinsics_.fx_px * z_m,
+                             (first.v - intrinsics_.cy_px) / intrinsics_.fy_px * z_m, z_m);
+      surface.fit.add(point_m);
+      surface.points_m.push_back(point_m);
     }
   }
 
   [[nodiscard]] bool is_known(std::size_t label) const {
-    return surfaces_[label].points_m.size() >= kLeastPoints &&
+    return surfaces_[label].points_m.size() >= kLeastPoints && surfaces_[label].plane &&
            (segments_.lies_on.empty() || segments_.lies_on[label - 1] == 0);
+  }
+
+  /// 1 where a surface is level.
+  [[nodiscard]] double upward_cosine(Surface const& surface) const {
+    return surface.plane->normal.dot(up_camera_);
   }
 
   void look_under(std::int32_t label, Labels& tops) {
@@ -116,7 +121,7 @@ private:
     std::vector<Vector2d> outline_m;
     for (std::size_t side = 1; side < surfaces_.size(); ++side) {
       Surface const& surface = surfaces_[side];
-      if (surface.upward_cosine > segments::kLevelCosine || !is_known(side) ||
+      if (!is_known(side) || upward_cosine(surface) > segments::kLevelCosine ||
           tops[side] != static_cast<std::int32_t>(side) ||
           surface.box.shared_with(top.box).empty() || !is_beneath(surface, top)) {
         continue;
@@ -142,7 +147,7 @@ private:
 
   static bool is_beneath(Surface const& side, Surface const& top) {
     return holds_for_most(
-        side, [&](Vector3d const& point_m) { return top.normal_per_m.dot(point_m) > 1.0; });
+        side, [&](Vector3d const& point_m) { return top.plane->signed_distance_m(point_m) < 0.0; });
   }
 
   /// Whether a surface that is beneath another is under its outline, and is seen from beside it:
@@ -152,7 +157,7 @@ private:
                               std::vector<Vector2d> const& outline_m) const {
     return holds_for_most(side, [&](Vector3d const& point_m) {
       double const inside_m = depth_inside(outline_m, from_above(point_m));
-      Vector3d const through_m = point_m / top.normal_per_m.dot(point_m);
+      Vector3d const through_m = point_m * top.plane->offset_m / top.plane->normal.dot(point_m);
       double const uncertain_m =
           kUncertain_quanta * config_.quantum_per_m * point_m.z() * point_m.z();
       return inside_m >= -uncertain_m && inside_m > depth_inside(outline_m, from_above(through_m));
@@ -194,6 +199,7 @@ private:
   Segments const& segments_;
   Grid<float> const& depth_m_;
   CameraIntrinsics const& intrinsics_;
+  Vector3d up_camera_;
   /// Level, and at right angles.
   Vector3d east_;
   Vector3d north_;
