@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "core/grid.hpp"
-#include "geometry/few_draws.hpp"
 #include "geometry/plane_search_kernels.hpp"
 
 namespace credo {
@@ -100,7 +100,7 @@ private:
 
   PlaneSearchPoints const& points_;
   PlaneSampling sampling_;
-  FewDraws random_;
+  std::mt19937 random_;
 };
 
 /// Draws after which a plane with such a share of the points would have been found with the
