@@ -100,7 +100,8 @@ private:
 
   PlaneSearchPoints const& points_;
   PlaneSampling sampling_;
-  std::mt19937 random_;
+  /// One number large: a search draws a few dozen times, and each segment has its own.
+  std::minstd_rand random_;
 };
 
 /// Draws after which a plane with such a share of the points would have been found with the

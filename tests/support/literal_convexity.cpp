@@ -206,17 +206,32 @@ void begin_parts(LiteralSurfaces const& surfaces, int level, int least_px, Grid<
   }
 }
 
-void grow(LiteralSurfaces const& surfaces, int level, Grid<int>& labels) {
-  std::deque<Pixel> queue;
+/// The first layer: what has no label and passes takes that of the first of its neighbours that has
+/// one and passes with it; in raster order.
+template <typename IsOpen, typename MayCome>
+std::vector<Pixel> advance_once(Grid<int>& labels, IsOpen const& is_open, MayCome const& may_come) {
+  Grid<int> const before = labels;
+  std::vector<Pixel> taken;
   for (Pixel const p : pixels_of(labels)) {
-    if (labels[p] > 0) {
-      queue.push_back(p);
+    for (Pixel const step : {Pixel{0, -1}, Pixel{-1, 0}, Pixel{1, 0}, Pixel{0, 1}}) {
+      Pixel const from = p + step;
+      if (labels[p] == 0 && is_open(p) && value(before, from) != 0 && may_come(from, p)) {
+        labels[p] = before[from];
+        taken.push_back(p);
+      }
     }
   }
+  return taken;
+}
+
+void grow(LiteralSurfaces const& surfaces, int level, Grid<int>& labels) {
+  auto const is_open = [&](Pixel p) { return value(surfaces.thickness, p) >= level; };
+  std::vector<Pixel> const first = advance_once(labels, is_open, [](Pixel, Pixel) { return true; });
+  std::deque<Pixel> queue(first.begin(), first.end());
   for (; !queue.empty(); queue.pop_front()) {
     for (Pixel const step : kNeighbours) {
       Pixel const next = queue.front() + step;
-      if (value(surfaces.thickness, next) >= level && labels[next] == 0) {
+      if (is_open(next) && labels[next] == 0) {
         labels[next] = labels[queue.front()];
         queue.push_back(next);
       }
@@ -228,23 +243,26 @@ void grow(LiteralSurfaces const& surfaces, int level, Grid<int>& labels) {
 void flood(LiteralSurfaces const& surfaces, LiteralLimits const& limits, bool along_surfaces,
            Grid<int>& labels) {
   std::array<std::deque<Pixel>, kKeys> queues;
-  for (Pixel const p : pixels_of(labels)) {
-    if (labels[p] > 0) {
-      queues[0].push_back(p);
-    }
+  auto const add = [&](Pixel p, std::size_t key) {
+    auto const own = static_cast<std::size_t>(surfaces.concavity[p] * 2 / kUnitsPerQuantum);
+    queues.at(std::max(key, std::min(own, kKeys - 1))).push_back(p);
+  };
+  auto const may_come = [&](Pixel from, Pixel to) {
+    return !along_surfaces || linked(surfaces.disparity, from, to, limits.link);
+  };
+  auto const is_open = [&](Pixel p) { return value(surfaces.disparity, p) != 0; };
+  for (Pixel const p : advance_once(labels, is_open, may_come)) {
+    add(p, 0);
   }
   for (std::size_t key = 0; key < kKeys; ++key) {
     for (; !queues.at(key).empty(); queues.at(key).pop_front()) {
       Pixel const p = queues.at(key).front();
       for (Pixel const step : kNeighbours) {
         Pixel const next = p + step;
-        if (value(surfaces.disparity, next) == 0 || labels[next] != 0 ||
-            (along_surfaces && !linked(surfaces.disparity, p, next, limits.link))) {
-          continue;
+        if (is_open(next) && labels[next] == 0 && may_come(p, next)) {
+          labels[next] = labels[p];
+          add(next, key);
         }
-        labels[next] = labels[p];
-        auto const own = static_cast<std::size_t>(surfaces.concavity[next] * 2 / kUnitsPerQuantum);
-        queues.at(std::max(key, std::min(own, kKeys - 1))).push_back(next);
       }
     }
   }

@@ -304,10 +304,11 @@ void front_bits_lanes(std::uint8_t const* centre, std::ptrdiff_t stride, std::ui
       d, count,
       [&](std::size_t u) HWY_ATTR {
         std::uint8_t const* const at = centre + u;
-        auto const beside = hn::Max(hn::LoadU(d, at - 1), hn::LoadU(d, at + 1));
-        auto const most =
-            hn::Max(beside, hn::Max(hn::LoadU(d, at - stride), hn::LoadU(d, at + stride)));
-        return hn::And(hn::Max(most, bound) == most, hn::LoadU(d, at) == hn::Zero(d));
+        auto const here = hn::LoadU(d, at);
+        auto const beside = hn::Min(hn::LoadU(d, at - 1), hn::LoadU(d, at + 1));
+        auto const lowest =
+            hn::Min(beside, hn::Min(hn::LoadU(d, at - stride), hn::LoadU(d, at + stride)));
+        return hn::And(hn::Max(here, bound) == here, lowest == hn::Zero(d));
       },
       out);
 }

@@ -76,7 +76,7 @@ void at_least_bits(std::uint8_t const* row, std::uint8_t least, std::size_t coun
 /// 1 where a value is higher.
 void higher_bits(float const* row, float than, std::size_t count, std::uint64_t* out);
 
-/// 1 where the centre is 0 and one of its four neighbours `least` or more.
+/// 1 where the centre is `least` or more and one of its four neighbours 0.
 void front_bits(std::uint8_t const* centre, std::ptrdiff_t stride, std::uint8_t least,
                 std::size_t count, std::uint64_t* out);
 

@@ -137,20 +137,29 @@ private:
     }
   }
 
-  /// Labelled pixels beside others of that worth without a label, in raster order.
-  template <typename Visit>
-  void for_each_front(std::uint8_t least, Visit const& visit) {
-    Position const stride = neighbours_[3];
+  /// The first layer: all pixels of that worth, or more, beside a labelled one whose link passes,
+  /// with the label of the first of these. Fills the queue, and returns how many they are.
+  template <typename IsLinked>
+  [[nodiscard]] std::size_t find_front(std::uint8_t least, IsLinked const& is_linked) {
+    std::int32_t const* const labels = labels_.row(0);
+    Taken* const queue = queue_.get();
+    auto const [left, right, up, down] = neighbours_;
+    std::size_t end = 0;
     for (int v = 0; v < map_.height(); ++v) {
-      std::int32_t const* const labels = labels_.row(v);
-      front_bits(worth_.row(v), stride, least, static_cast<std::size_t>(map_.width()),
-                 bits_.data());
+      front_bits(worth_.row(v), down, least, static_cast<std::size_t>(map_.width()), bits_.data());
       bits_.for_each_set([&](int u) {
-        if (labels[u] != 0) {
-          visit(v * stride + u);
+        Position const at = v * down + u;
+        // From the last to the first, without a branch: which there are is not to be foreseen.
+        std::int32_t label = 0;
+        for (Position const step : {down, right, left, up}) {
+          std::int32_t const other = is_linked(at, step) ? labels[at + step] : 0;
+          label = other != 0 ? other : label;
         }
+        queue[end] = {at, label};
+        end += label != 0 ? 1 : 0;
       });
     }
+    return end;
   }
 
   void grow(std::uint8_t least) {
@@ -159,8 +168,10 @@ private:
     Taken* const queue = queue_.get();
     // A member might be one of the bytes that are written, for all that compilers know.
     auto const neighbours = neighbours_;
-    std::size_t end = 0;
-    for_each_front(least, [&](Position at) { queue[end++] = {at, labels[at]}; });
+    std::size_t end = find_front(least, [](Position, Position) { return true; });
+    for (std::size_t i = 0; i < end; ++i) {
+      worth[queue[i].at] = 0;
+    }
     for (std::size_t i = 0; i < end; ++i) {
       auto const [at, label] = queue[i];
       labels[at] = label;
@@ -193,22 +204,36 @@ private:
     std::uint8_t* const costs = costs_.row(0);
     std::int32_t* const labels = labels_.row(0);
     std::array<std::vector<Position>, kFloodCost> buckets;
-    for_each_front(kValid, [&](Position at) { buckets[0].push_back(at); });
+    auto const take = [&](Position at, std::int32_t label, std::size_t key) {
+      std::size_t const cost = costs[at] & kFloodCost;
+      costs[at] &= static_cast<std::uint8_t>(~kFloodCost);
+      worth[at] = 0;
+      labels[at] = label;
+      buckets[std::max(key, cost - 1)].push_back(at);
+    };
+    std::size_t const front = find_front(kValid, [&](Position at, Position step) {
+      return !kAlongSurfaces || is_linked(costs + at, step);
+    });
+    for (std::size_t i = 0; i < front; ++i) {
+      take(queue_[i].at, queue_[i].label, 0);
+    }
     for (std::size_t key = 0; key < buckets.size(); ++key) {
       for (std::size_t i = 0; i < buckets[key].size(); ++i) {
         Position const at = buckets[key][i];
         // All four at once: each by itself would be a branch that is not to be foreseen.
         for (unsigned open = open_neighbours<kAlongSurfaces>(costs + at); open != 0;
              open &= open - 1) {
-          Position const next = at + neighbours_[static_cast<std::size_t>(std::countr_zero(open))];
-          std::size_t const cost = costs[next] & kFloodCost;
-          costs[next] &= static_cast<std::uint8_t>(~kFloodCost);
-          worth[next] = 0;
-          labels[next] = labels[at];
-          buckets[std::max(key, cost - 1)].push_back(next);
+          take(at + neighbours_[static_cast<std::size_t>(std::countr_zero(open))], labels[at], key);
         }
       }
     }
+  }
+
+  /// Whether surfaces go on from a pixel to that neighbour.
+  [[nodiscard]] bool is_linked(std::uint8_t const* cost, Position step) const {
+    auto const [left, right, up, down] = neighbours_;
+    std::uint8_t const of_pair = cost[step == left || step == up ? step : 0];
+    return (of_pair & (step == left || step == right ? kLinkedRight : kLinkedDown)) != 0;
   }
 
   /// One bit for each of a pixel's neighbours, set where a flood may go on to it.

@@ -16,7 +16,9 @@ using PartLabels = PaddedGrid<std::int32_t>;
 /// flows through it. Then what is left goes to what it touches, least concave first. Every pixel
 /// with depth that is joined to a part gets its label; labels count from 1.
 ///
-/// Fronts advance together, a pixel at a time, in the order of the raster: left, right, up, down.
+/// Fronts advance together, a pixel at a time: first all pixels that have a label beside them, in
+/// the order of the raster, each from the first of these; then each from those before it, to the
+/// left, to the right, up, down.
 [[nodiscard]] PartLabels grow_parts(SurfaceMap const& map, Limits const& limits);
 
 }  // namespace credo::segments

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "stages/segments/segments.hpp"
@@ -21,8 +22,7 @@ class OutlineBuilder {
 public:
   OutlineBuilder(Segments const& segments, LabelledRows const& rows, Grid<float> const& depth_m,
                  float link_per_m)
-      : labels_(segments.labels),
-        rows_(rows),
+      : rows_(rows),
         depth_m_(depth_m),
         link_per_m_(link_per_m),
         outlines_(segments.pixel_counts.size() + 1) {
@@ -32,7 +32,7 @@ public:
   }
 
   std::vector<Outline> outlines() && {
-    for (int v = 0; v < labels_.height(); ++v) {
+    for (int v = 0; v < depth_m_.height(); ++v) {
       look_along(v);
       if (v > 0) {
         look_up(v);
@@ -56,6 +56,7 @@ private:
     Meeting* meeting = nullptr;
   };
   static constexpr std::size_t kRecent = 256;
+  static constexpr int kRowsAhead = 3;
 
   Outline& outline(std::int32_t label) { return outlines_[static_cast<std::size_t>(label)]; }
 
@@ -71,12 +72,14 @@ private:
 
   /// The runs of a row, and what is between them.
   void look_along(int v) {
-    for (LabelRun const& run : rows_.row(v)) {
+    std::span<LabelRun const> const runs = rows_.row(v);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      LabelRun const& run = runs[i];
       if (run.label != 0) {
         outline(run.label).box.add({{run.begin, v}, {run.end - 1, v}});
       }
-      if (run.end < labels_.width()) {
-        look({run.end - 1, v}, {run.end, v});
+      if (i + 1 < runs.size()) {
+        look({run.end - 1, v}, run.label, {run.end, v}, runs[i + 1].label);
       }
     }
   }
@@ -87,7 +90,7 @@ private:
       for (int u = run.begin; u < run.end;) {
         int const end = std::min(run.end, above->end);
         for (; u < end && above->label != run.label; ++u) {
-          look({u, v - 1}, {u, v});
+          look({u, v - 1}, above->label, {u, v}, run.label);
         }
         u = end;
         above += above->end == end ? 1 : 0;
@@ -95,12 +98,13 @@ private:
     }
   }
 
-  void look(Pixel p, Pixel q) {
-    std::int32_t const a = labels_[p];
-    std::int32_t const b = labels_[q];
+  /// At neighbours p of label a and q of label b.
+  void look(Pixel p, std::int32_t a, Pixel q, std::int32_t b) {
     if (a == 0 || b == 0) {
       return;
     }
+    // Borders go on from row to row: what is fetched by then is not waited for.
+    __builtin_prefetch(&depth_m_[{p.u, std::min(p.v + kRowsAhead, depth_m_.height() - 1)}]);
     float const nearer_per_m = 1.0F / depth_m_[p] - 1.0F / depth_m_[q];
     Meeting& meeting = meeting_of(std::min(a, b), std::max(a, b));
     if (std::abs(nearer_per_m) < link_per_m_) {
@@ -112,7 +116,6 @@ private:
     }
   }
 
-  Grid<std::int32_t> const& labels_;
   LabelledRows const& rows_;
   Grid<float> const& depth_m_;
   float link_per_m_;

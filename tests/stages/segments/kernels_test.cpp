@@ -317,15 +317,15 @@ TEST(SegmentKernels, Front) {
   for_each_size([](int width) {
     std::mt19937 random(static_cast<unsigned>(width));
     Bytes const bytes =
-        drawn<std::uint8_t>(width, [&] { return random() % 3 == 0 ? random() % 6 : 0U; });
+        drawn<std::uint8_t>(width, [&] { return random() % 3 == 0 ? 0U : random() % 6; });
     for (std::uint8_t least = 1; least <= 5; ++least) {
       auto const is_front = written_bits(width, [&](std::uint64_t* out) {
         front_bits(bytes.row(2), bytes.stride(), least, static_cast<std::size_t>(width), out);
       });
       EXPECT_EQ(is_front, plain_row<std::uint8_t>(width, [&](int u) {
                   std::uint8_t const* const at = bytes.row(2) + u;
-                  return *at == 0 && (at[-1] >= least || at[1] >= least ||
-                                      at[-bytes.stride()] >= least || at[bytes.stride()] >= least);
+                  return *at >= least && (at[-1] == 0 || at[1] == 0 || at[-bytes.stride()] == 0 ||
+                                          at[bytes.stride()] == 0);
                 }));
     }
   });
