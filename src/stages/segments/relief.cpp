@@ -74,20 +74,20 @@ public:
 private:
   /// Run by run from the left: what a kernel writes beyond one is in none or overwritten.
   void fill(int v, RowSums& row) {
-    std::ranges::fill(row.surface, 0);
     float* const heights = run_heights_.data() + 1;
     for (LabelRun const& run : rows_.row(v)) {
       auto const& surface = surfaces_[static_cast<std::size_t>(run.label)];
-      if (!surface) {
-        continue;
-      }
       auto const begin = static_cast<std::size_t>(run.begin);
       auto const end = static_cast<std::size_t>(run.end);
       std::size_t const n = end - begin;
+      std::fill_n(row.surface.begin() + static_cast<std::ptrdiff_t>(begin), n,
+                  surface ? run.label : 0);
+      if (!surface) {
+        continue;
+      }
       height_row(depth_m_.row(v).data() + begin, along_row(*surface, v, begin), n, heights);
       heights[n] = 0.0F;
       sum_row(heights, n, row.sums.data() + begin);
-      std::fill_n(row.surface.begin() + static_cast<std::ptrdiff_t>(begin), n, run.label);
       std::fill_n(row.counts.begin() + static_cast<std::ptrdiff_t>(begin), n, 3.0F);
       row.counts[begin] -= 1.0F;
       row.counts[end - 1] -= 1.0F;
