@@ -86,6 +86,24 @@ TEST(StuffItems, WhatShowsAsOneForLongBecomesOne) {
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
 }
 
+// What shows as one behind the other is two, however long the frames' clusters hold both. A step
+// within which a thing may be off is none.
+TEST(StuffItems, WhatStandsBehindAnotherDoesNotBecomeOneWithIt) {
+  for (double const behind_m : {0.0, 0.02, 0.05, 0.3}) {
+    Room room;
+    Board const front{kFirst, 0.0, 0.0, 0.12, 0.2};
+    Board const back{kSecond, 0.12, 0.0, 0.1, 0.2, 1.5 + behind_m};
+    room.show({.boards = {front, back}}, 3);
+    ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+    Board back_with_it = back;
+    back_with_it.label = kFirst;
+    room.show({.boards = {front, back_with_it}}, 60);
+    EXPECT_EQ(room.ids().size(), behind_m > 0.03 ? 2U : 1U) << behind_m;
+    room.show({.boards = {front, back}});
+    EXPECT_EQ(room.ids().size(), behind_m > 0.03 ? 2U : 1U) << behind_m;
+  }
+}
+
 // The longer the two showed by themselves, up to some twelve looks, the longer it takes.
 TEST(StuffItems, WhatShowedInTwoForLongStaysTwoForLonger) {
   Room room;
