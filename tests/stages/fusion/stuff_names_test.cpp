@@ -50,6 +50,23 @@ TEST(StuffItems, WhatShowsInTwoForLongBecomesTwo) {
   EXPECT_GE(room.stuff()[1].log_odds, believed);
 }
 
+// Where something before it cuts it in two, that says nothing: it was seen to go on there. Where
+// both pieces lie side by side it does.
+TEST(StuffItems, WhatSomethingElseCutsInTwoStaysOne) {
+  Board const left{kFirst, 0.0, 0.0, 0.18, 0.2};
+  Board const right{kSecond, 0.24, 0.0, 0.16, 0.2};
+  Board const leg{std::nullopt, 0.14, -0.1, 0.06, 0.4, 1.2};
+  for (bool const cut : {true, false}) {
+    Room room;
+    room.show({.boards = {{kFirst, 0.0, 0.0, 0.4, 0.2}}}, 3);
+    Board wider = right;
+    wider.left_m = 0.18;
+    wider.width_m = 0.22;
+    room.show({.boards = cut ? std::vector{left, right, leg} : std::vector{left, wider}}, 60);
+    EXPECT_EQ(room.ids().size(), cut ? 1U : 2U);
+  }
+}
+
 // Though more and more of the piece is seen, of which nothing was to be seen before.
 TEST(StuffItems, WhatShowsInTwoBecomesTwoWhileMoreOfItComesToBeSeen) {
   Room room;
