@@ -22,14 +22,13 @@ ShownSteps::ShownSteps(Sight const& sight, Grid<std::int32_t> const& owners) {
     ++border.blocks;
     border.steps += step_m > agreement_m(near_m) ? 1 : 0;
   };
-  for (int v = 0; v < owners.height(); ++v) {
-    for (int u = 0; u < owners.width(); ++u) {
-      if (u + 1 < owners.width()) {
-        compare(owners.index({u, v}), owners.index({u + 1, v}));
-      }
-      if (v + 1 < owners.height()) {
-        compare(owners.index({u, v}), owners.index({u, v + 1}));
-      }
+  auto const width = static_cast<std::size_t>(owners.width());
+  for (std::size_t place = 0; place < owners.size(); ++place) {
+    if ((place + 1) % width != 0) {
+      compare(place, place + 1);
+    }
+    if (place + width < owners.size()) {
+      compare(place, place + width);
     }
   }
 }

@@ -64,6 +64,9 @@ TEST(StuffItems, WhatSomethingElseCutsInTwoStaysOne) {
     wider.width_m = 0.22;
     room.show({.boards = cut ? std::vector{left, right, leg} : std::vector{left, wider}}, 60);
     EXPECT_EQ(room.ids().size(), cut ? 1U : 2U);
+    // Nor has it said so before when nothing does any more.
+    room.show({.boards = {left, wider}});
+    EXPECT_EQ(room.ids().size(), cut ? 1U : 2U);
   }
 }
 
