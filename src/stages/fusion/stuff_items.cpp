@@ -17,6 +17,7 @@
 #include "stages/fusion/joined_names.hpp"
 #include "stages/fusion/shown_in.hpp"
 #include "stages/fusion/shown_planes.hpp"
+#include "stages/fusion/shown_steps.hpp"
 #include "stages/fusion/stuff_findings.hpp"
 #include "stages/fusion/stuff_learning.hpp"
 #include "stages/fusion/stuff_looks.hpp"
@@ -48,6 +49,7 @@ public:
         now_{segmentation.stamp_ns, segmentation.T_world_camera.translation()},
         view_(segmentation.sight, segmentation.T_world_camera),
         looks_(segmentation.sight, segmentation.T_world_camera, known_.stuff),
+        steps_(segmentation.sight, looks_.owners()),
         clusters_(clusters_of(segmentation)),
         owners_(looks_.looks(), clusters_, places),
         news_(known_.stuff.size(), 0.0) {
@@ -265,7 +267,8 @@ private:
         }
       } else if (std::optional<std::size_t> const host =
                      host_of(j, known_.stuff, looks_.looks(), owners_, released_)) {
-        if (shows_enough(j) && are_one(j, *host)) {
+        // Which a frame that shows the one behind the other does not say, whatever its clusters.
+        if (shows_enough(j) && !steps_.stand_apart(j, *host) && are_one(j, *host)) {
           join(*host, j);
         }
       } else if (item.label) {
@@ -362,6 +365,7 @@ private:
   Look now_;
   SightView view_;
   StuffLooks looks_;
+  ShownSteps steps_;
   /// By label, from kFirstStuff on.
   std::vector<SeenCluster> clusters_;
   ClusterOwners owners_;

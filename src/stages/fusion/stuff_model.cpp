@@ -116,6 +116,12 @@ SurfacePoint fused(SurfacePoint point, SurfacePoint const& seen) {
 
 }  // namespace
 
+std::uint64_t neighbour_cell(std::uint64_t cell, std::int64_t dx, std::int64_t dy,
+                             std::int64_t dz) {
+  return cell + (static_cast<std::uint64_t>(dx) << 42U) + (static_cast<std::uint64_t>(dy) << 21U) +
+         static_cast<std::uint64_t>(dz);
+}
+
 StuffModel new_model(std::span<Eigen::Vector3f const> points_world, double area_m2) {
   double const spacing_m =
       std::clamp(std::sqrt(std::max(area_m2, 0.0)) / kCellsAcross, kFinest_m, kCoarsest_m);

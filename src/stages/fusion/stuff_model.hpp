@@ -19,6 +19,10 @@ namespace credo {
 [[nodiscard]] StuffModel fused_model(StuffModel const& model,
                                      std::span<Eigen::Vector3f const> points_world);
 
+/// The cell so many farther along each axis of the grid than a cell of a model is.
+[[nodiscard]] std::uint64_t neighbour_cell(std::uint64_t cell, std::int64_t dx, std::int64_t dy,
+                                           std::int64_t dz);
+
 /// A mean over so many looks, at most, follows what changes.
 inline constexpr float kMostWeight = 12.0F;
 

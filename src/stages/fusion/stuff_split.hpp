@@ -21,7 +21,8 @@ struct SplitModel {
   std::vector<LabelCode> parts;
 };
 
-/// What shows look after look as a cluster beside the thing's main one is a thing of its own.
+/// What shows look after look as a cluster beside the thing's main one is a thing of its own; not
+/// where the model goes on from one to the other behind something else: that cuts them apart.
 /// Single points that show as floor, wall, known object or in others' clusters go, the sooner the
 /// fewer looks they come from.
 /// The thing was found in the clusters `labels`, of which `main` shows most of what was seen of

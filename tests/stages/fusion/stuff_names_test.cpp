@@ -50,6 +50,26 @@ TEST(StuffItems, WhatShowsInTwoForLongBecomesTwo) {
   EXPECT_GE(room.stuff()[1].log_odds, believed);
 }
 
+// Where something before it cuts it in two, that says nothing: it was seen to go on there. Where
+// both pieces lie side by side it does.
+TEST(StuffItems, WhatSomethingElseCutsInTwoStaysOne) {
+  Board const left{kFirst, 0.0, 0.0, 0.18, 0.2};
+  Board const right{kSecond, 0.24, 0.0, 0.16, 0.2};
+  Board const leg{std::nullopt, 0.14, -0.1, 0.06, 0.4, 1.2};
+  for (bool const cut : {true, false}) {
+    Room room;
+    room.show({.boards = {{kFirst, 0.0, 0.0, 0.4, 0.2}}}, 3);
+    Board wider = right;
+    wider.left_m = 0.18;
+    wider.width_m = 0.22;
+    room.show({.boards = cut ? std::vector{left, right, leg} : std::vector{left, wider}}, 60);
+    EXPECT_EQ(room.ids().size(), cut ? 1U : 2U);
+    // Nor has it said so before when nothing does any more.
+    room.show({.boards = {left, wider}});
+    EXPECT_EQ(room.ids().size(), cut ? 1U : 2U);
+  }
+}
+
 // Though more and more of the piece is seen, of which nothing was to be seen before.
 TEST(StuffItems, WhatShowsInTwoBecomesTwoWhileMoreOfItComesToBeSeen) {
   Room room;
@@ -84,6 +104,24 @@ TEST(StuffItems, WhatShowsAsOneForLongBecomesOne) {
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
   room.show({.boards = {{kFirst}}}, 2);
   EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
+// What shows as one behind the other is two, however long the frames' clusters hold both. A step
+// within which a thing may be off is none.
+TEST(StuffItems, WhatStandsBehindAnotherDoesNotBecomeOneWithIt) {
+  for (double const behind_m : {0.0, 0.02, 0.05, 0.3}) {
+    Room room;
+    Board const front{kFirst, 0.0, 0.0, 0.12, 0.2};
+    Board const back{kSecond, 0.12, 0.0, 0.1, 0.2, 1.5 + behind_m};
+    room.show({.boards = {front, back}}, 3);
+    ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+    Board back_with_it = back;
+    back_with_it.label = kFirst;
+    room.show({.boards = {front, back_with_it}}, 60);
+    EXPECT_EQ(room.ids().size(), behind_m > 0.03 ? 2U : 1U) << behind_m;
+    room.show({.boards = {front, back}});
+    EXPECT_EQ(room.ids().size(), behind_m > 0.03 ? 2U : 1U) << behind_m;
+  }
 }
 
 // The longer the two showed by themselves, up to some twelve looks, the longer it takes.
