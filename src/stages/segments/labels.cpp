@@ -143,15 +143,17 @@ private:
   [[nodiscard]] std::size_t find_front(std::uint8_t least, IsLinked const& is_linked) {
     std::int32_t const* const labels = labels_.row(0);
     Taken* const queue = queue_.get();
-    auto const [left, right, up, down] = neighbours_;
+    Position const down = neighbours_[3];
+    // From the last to the first.
+    std::array<Position, 4> const steps = {down, neighbours_[1], neighbours_[0], neighbours_[2]};
     std::size_t end = 0;
     for (int v = 0; v < map_.height(); ++v) {
       front_bits(worth_.row(v), down, least, static_cast<std::size_t>(map_.width()), bits_.data());
       bits_.for_each_set([&](int u) {
         Position const at = v * down + u;
-        // From the last to the first, without a branch: which there are is not to be foreseen.
+        // Without a branch: which there are is not to be foreseen.
         std::int32_t label = 0;
-        for (Position const step : {down, right, left, up}) {
+        for (Position const step : steps) {
           std::int32_t const other = is_linked(at, step) ? labels[at + step] : 0;
           label = other != 0 ? other : label;
         }
