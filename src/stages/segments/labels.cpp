@@ -137,10 +137,10 @@ private:
     }
   }
 
-  /// The first layer: all pixels of that worth, or more, beside a labelled one whose link passes,
-  /// with the label of the first of these. Fills the queue, and returns how many they are.
-  template <typename IsLinked>
-  [[nodiscard]] std::size_t find_front(std::uint8_t least, IsLinked const& is_linked) {
+  /// The first layer: all pixels of that worth, or more, beside a labelled one, with the label of
+  /// the first of these. Fills the queue, and returns how many they are. Surfaces go on there: what
+  /// has a thickness, and so a label, is beside no jump.
+  [[nodiscard]] std::size_t find_front(std::uint8_t least) {
     std::int32_t const* const labels = labels_.row(0);
     Taken* const queue = queue_.get();
     Position const down = neighbours_[3];
@@ -154,7 +154,7 @@ private:
         // Without a branch: which there are is not to be foreseen.
         std::int32_t label = 0;
         for (Position const step : steps) {
-          std::int32_t const other = is_linked(at, step) ? labels[at + step] : 0;
+          std::int32_t const other = labels[at + step];
           label = other != 0 ? other : label;
         }
         queue[end] = {at, label};
@@ -170,7 +170,7 @@ private:
     Taken* const queue = queue_.get();
     // A member might be one of the bytes that are written, for all that compilers know.
     auto const neighbours = neighbours_;
-    std::size_t end = find_front(least, [](Position, Position) { return true; });
+    std::size_t end = find_front(least);
     for (std::size_t i = 0; i < end; ++i) {
       worth[queue[i].at] = 0;
     }
@@ -213,9 +213,7 @@ private:
       labels[at] = label;
       buckets[std::max(key, cost - 1)].push_back(at);
     };
-    std::size_t const front = find_front(kValid, [&](Position at, Position step) {
-      return !kAlongSurfaces || is_linked(costs + at, step);
-    });
+    std::size_t const front = find_front(kValid);
     for (std::size_t i = 0; i < front; ++i) {
       take(queue_[i].at, queue_[i].label, 0);
     }
@@ -229,13 +227,6 @@ private:
         }
       }
     }
-  }
-
-  /// Whether surfaces go on from a pixel to that neighbour.
-  [[nodiscard]] bool is_linked(std::uint8_t const* cost, Position step) const {
-    auto const [left, right, up, down] = neighbours_;
-    std::uint8_t const of_pair = cost[step == left || step == up ? step : 0];
-    return (of_pair & (step == left || step == right ? kLinkedRight : kLinkedDown)) != 0;
   }
 
   /// One bit for each of a pixel's neighbours, set where a flood may go on to it.

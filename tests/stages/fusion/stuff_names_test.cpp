@@ -70,6 +70,18 @@ TEST(StuffItems, WhatSomethingElseCutsInTwoStaysOne) {
   }
 }
 
+// What hides less of the border than is seen of it cuts nothing: side by side in sight, the two are
+// told apart there.
+TEST(StuffItems, WhatSomethingElseHardlyHidesBecomesTwo) {
+  Board const left{kFirst, 0.0, 0.0, 0.18, 0.2};
+  Board const right{kSecond, 0.18, 0.0, 0.22, 0.2};
+  Board const knob{std::nullopt, 0.11, -0.1, 0.06, 0.15, 1.2};
+  Room room;
+  room.show({.boards = {{kFirst, 0.0, 0.0, 0.4, 0.2}}}, 3);
+  room.show({.boards = {left, right, knob}}, 60);
+  EXPECT_EQ(room.ids().size(), 2U);
+}
+
 // Though more and more of the piece is seen, of which nothing was to be seen before.
 TEST(StuffItems, WhatShowsInTwoBecomesTwoWhileMoreOfItComesToBeSeen) {
   Room room;
