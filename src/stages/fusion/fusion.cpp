@@ -4,13 +4,13 @@
 #include <optional>
 #include <utility>
 
-#include "stages/fusion/drift.hpp"
+#include "stages/fusion/drift/drift.hpp"
 #include "stages/fusion/existence.hpp"
 #include "stages/fusion/floor.hpp"
 #include "stages/fusion/moved_segmentation.hpp"
-#include "stages/fusion/objects.hpp"
-#include "stages/fusion/stuff.hpp"
-#include "stages/fusion/stuff_items.hpp"
+#include "stages/fusion/objects/objects.hpp"
+#include "stages/fusion/stuff/items.hpp"
+#include "stages/fusion/stuff/stuff.hpp"
 #include "stages/fusion/surroundings.hpp"
 #include "stages/fusion/walls.hpp"
 

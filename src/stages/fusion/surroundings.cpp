@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "stages/fusion/existence.hpp"
+#include "stages/fusion/findings.hpp"
 #include "stages/fusion/points.hpp"
 #include "stages/fusion/sight_view.hpp"
-#include "stages/fusion/stuff_findings.hpp"
 
 namespace credo {
 namespace {

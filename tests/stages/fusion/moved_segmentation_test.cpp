@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "stages/fusion/drift_room.hpp"
+#include "stages/fusion/drift/drift_room.hpp"
 
 namespace credo {
 namespace {

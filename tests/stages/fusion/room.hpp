@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "core/belief.hpp"
-#include "stages/fusion/known_places.hpp"
-#include "stages/fusion/stuff_items.hpp"
-#include "stages/fusion/stuff_moves.hpp"
-#include "stages/fusion/table_views.hpp"
+#include "stages/fusion/stuff/items.hpp"
+#include "stages/fusion/stuff/known_places.hpp"
+#include "stages/fusion/stuff/moves.hpp"
+#include "stages/fusion/stuff/table_views.hpp"
 
 // A belief about stuff that hand-made frames are shown to.
 namespace credo::test {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "stages/fusion/fusion.hpp"
-#include "stages/fusion/table_views.hpp"
+#include "stages/fusion/stuff/table_views.hpp"
 
 namespace credo::test {
 namespace {
