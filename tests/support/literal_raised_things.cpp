@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "stages/segments/flat_surface.hpp"
+#include "stages/segments/raised/flat_surface.hpp"
 
 namespace credo::test {
 namespace {

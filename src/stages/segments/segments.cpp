@@ -5,13 +5,13 @@
 #include <span>
 #include <utility>
 
+#include "stages/segments/convexity/labels.hpp"
+#include "stages/segments/convexity/limits.hpp"
+#include "stages/segments/convexity/region_graph.hpp"
+#include "stages/segments/convexity/region_merge.hpp"
+#include "stages/segments/convexity/surface_map.hpp"
 #include "stages/segments/label_runs.hpp"
-#include "stages/segments/labels.hpp"
-#include "stages/segments/limits.hpp"
 #include "stages/segments/numbering.hpp"
-#include "stages/segments/region_graph.hpp"
-#include "stages/segments/region_merge.hpp"
-#include "stages/segments/surface_map.hpp"
 
 namespace credo {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "stages/segments/color_parts.hpp"
-#include "stages/segments/raised_things.hpp"
-#include "stages/segments/thing_parts.hpp"
-#include "stages/segments/thing_sides.hpp"
+#include "stages/segments/color/parts.hpp"
+#include "stages/segments/parts/thing_parts.hpp"
+#include "stages/segments/parts/thing_sides.hpp"
+#include "stages/segments/raised/raised_things.hpp"
 
 namespace credo {
 

@@ -7,7 +7,7 @@
 
 #include "core/grid.hpp"
 #include "core/segments.hpp"
-#include "stages/segments/thing_parts.hpp"
+#include "stages/segments/parts/thing_parts.hpp"
 
 // Segments as rectangles of a made depth image.
 namespace credo::test {

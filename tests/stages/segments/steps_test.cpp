@@ -4,12 +4,12 @@
 #include <cstdlib>
 #include <set>
 
+#include "stages/segments/convexity/labels.hpp"
+#include "stages/segments/convexity/limits.hpp"
+#include "stages/segments/convexity/region_graph.hpp"
+#include "stages/segments/convexity/region_merge.hpp"
+#include "stages/segments/convexity/surface_map.hpp"
 #include "stages/segments/depth_images.hpp"
-#include "stages/segments/labels.hpp"
-#include "stages/segments/limits.hpp"
-#include "stages/segments/region_graph.hpp"
-#include "stages/segments/region_merge.hpp"
-#include "stages/segments/surface_map.hpp"
 
 namespace credo::segments {
 namespace {
