@@ -22,7 +22,7 @@
 #include "config_arguments.hpp"
 #include "core/error.hpp"
 #include "dds/belief_publisher.hpp"
-#include "geometry/outline.hpp"
+#include "geometry/shapes/outline.hpp"
 #include "graph/pipeline.hpp"
 #include "graph/read_ahead.hpp"
 #include "known_objects.hpp"

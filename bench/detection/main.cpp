@@ -15,7 +15,7 @@
 
 #include "core/detector_config.hpp"
 #include "core/error.hpp"
-#include "geometry/outline.hpp"
+#include "geometry/shapes/outline.hpp"
 #include "io/image.hpp"
 #include "methods.hpp"
 #include "pictures.hpp"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/oriented_point.hpp"
+#include "geometry/shapes/oriented_point.hpp"
 
 namespace credo {
 

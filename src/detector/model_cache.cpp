@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "detector/model_archive.hpp"
-#include "geometry/model_mesh.hpp"
+#include "geometry/shapes/model_mesh.hpp"
 #include "io/sha256.hpp"
 
 namespace credo {

@@ -8,7 +8,7 @@
 
 #include "detector/edge_contacts.hpp"
 #include "detector/scene_projection.hpp"
-#include "geometry/bingham_procrustes.hpp"
+#include "geometry/bingham/procrustes.hpp"
 #include "geometry/random_draws.hpp"
 
 namespace credo {

@@ -13,8 +13,8 @@
 #include "detector/model_views.hpp"
 #include "detector/surface_sample.hpp"
 #include "detector/view_directions.hpp"
-#include "geometry/mesh_edges.hpp"
-#include "geometry/model_mesh.hpp"
+#include "geometry/shapes/mesh_edges.hpp"
+#include "geometry/shapes/model_mesh.hpp"
 
 namespace credo {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <random>
 
-#include "geometry/point_cells.hpp"
 #include "geometry/random_draws.hpp"
+#include "geometry/shapes/point_cells.hpp"
 
 namespace credo {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "geometry/surface_points.hpp"
+#include "geometry/shapes/surface_points.hpp"
 
 namespace credo {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/object_model.hpp"
 #include "core/se3.hpp"
-#include "geometry/object_shape.hpp"
+#include "geometry/shapes/object_shape.hpp"
 
 namespace credo {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "geometry/triangle_pixels.hpp"
+#include "geometry/shapes/triangle_pixels.hpp"
 
 namespace credo {
 namespace {

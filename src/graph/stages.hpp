@@ -10,8 +10,8 @@
 #include "core/object_model.hpp"
 #include "core/prior_file.hpp"
 #include "core/segmentation.hpp"
-#include "geometry/known_surface.hpp"
-#include "geometry/object_shape.hpp"
+#include "geometry/shapes/known_surface.hpp"
+#include "geometry/shapes/object_shape.hpp"
 #include "graph/pipeline_config.hpp"
 #include "stages/capture/level.hpp"
 

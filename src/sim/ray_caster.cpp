@@ -17,9 +17,9 @@
 #include <variant>
 #include <vector>
 
-#include "geometry/mesh_edges.hpp"
-#include "geometry/solid.hpp"
-#include "geometry/triangle.hpp"
+#include "geometry/shapes/mesh_edges.hpp"
+#include "geometry/shapes/solid.hpp"
+#include "geometry/shapes/triangle.hpp"
 #include "sim/texture.hpp"
 #include "sim/thing.hpp"
 

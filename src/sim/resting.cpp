@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "geometry/convex_hull.hpp"
-#include "geometry/mesh_edges.hpp"
+#include "geometry/shapes/mesh_edges.hpp"
 
 namespace credo {
 namespace {

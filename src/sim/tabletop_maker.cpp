@@ -11,7 +11,7 @@
 #include <variant>
 
 #include "geometry/convex_hull.hpp"
-#include "geometry/outline.hpp"
+#include "geometry/shapes/outline.hpp"
 #include "sim/height_field.hpp"
 #include "sim/mesh_making.hpp"
 #include "sim/resting.hpp"

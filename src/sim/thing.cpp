@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "geometry/solid.hpp"
+#include "geometry/shapes/solid.hpp"
 
 namespace credo {
 

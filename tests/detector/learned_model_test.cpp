@@ -10,9 +10,9 @@
 
 #include "detector/bpa_detector.hpp"
 #include "detector/views.hpp"
-#include "geometry/learned_surface.hpp"
-#include "geometry/mesh_distance.hpp"
-#include "geometry/model_mesh.hpp"
+#include "geometry/shapes/learned_surface.hpp"
+#include "geometry/shapes/mesh_distance.hpp"
+#include "geometry/shapes/model_mesh.hpp"
 #include "io/pcd.hpp"
 #include "sim/household.hpp"
 #include "support/milk_pose.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "detector/views.hpp"
-#include "geometry/model_mesh.hpp"
+#include "geometry/shapes/model_mesh.hpp"
 #include "io/palette.hpp"
 
 namespace credo::test {

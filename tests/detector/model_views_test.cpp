@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "detector/views.hpp"
-#include "geometry/model_mesh.hpp"
-#include "geometry/solid.hpp"
-#include "geometry/triangle.hpp"
+#include "geometry/shapes/model_mesh.hpp"
+#include "geometry/shapes/solid.hpp"
+#include "geometry/shapes/triangle.hpp"
 #include "support/meshes.hpp"
 
 namespace credo::test {

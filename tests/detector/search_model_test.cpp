@@ -14,8 +14,8 @@
 
 #include "core/error.hpp"
 #include "detector/views.hpp"
-#include "geometry/mesh_distance.hpp"
-#include "geometry/model_mesh.hpp"
+#include "geometry/shapes/mesh_distance.hpp"
+#include "geometry/shapes/model_mesh.hpp"
 #include "support/meshes.hpp"
 
 namespace credo::test {

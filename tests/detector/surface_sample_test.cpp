@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "geometry/model_mesh.hpp"
+#include "geometry/shapes/model_mesh.hpp"
 #include "support/meshes.hpp"
 
 namespace credo::test {

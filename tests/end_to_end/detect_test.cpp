@@ -12,7 +12,7 @@
 
 #include "end_to_end/known_scene.hpp"
 #include "end_to_end/program.hpp"
-#include "geometry/model_mesh.hpp"
+#include "geometry/shapes/model_mesh.hpp"
 #include "io/image.hpp"
 #include "io/mesh_file.hpp"
 #include "sim/camera_path.hpp"

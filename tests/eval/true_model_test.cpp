@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/solid.hpp"
-#include "geometry/surface_points.hpp"
+#include "geometry/shapes/surface_points.hpp"
 
 namespace credo::test {
 namespace {

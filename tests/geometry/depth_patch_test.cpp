@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-#include "geometry/triangle.hpp"
+#include "geometry/shapes/triangle.hpp"
 
 namespace credo::test {
 namespace {

@@ -7,9 +7,9 @@
 #include <set>
 #include <variant>
 
-#include "geometry/mesh_edges.hpp"
-#include "geometry/object_shape.hpp"
-#include "geometry/surface_points.hpp"
+#include "geometry/shapes/mesh_edges.hpp"
+#include "geometry/shapes/object_shape.hpp"
+#include "geometry/shapes/surface_points.hpp"
 
 namespace credo::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "geometry/mesh_edges.hpp"
+#include "geometry/shapes/mesh_edges.hpp"
 
 namespace credo::test {
 namespace {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "geometry/object_shape.hpp"
-#include "geometry/surface_points.hpp"
+#include "geometry/shapes/object_shape.hpp"
+#include "geometry/shapes/surface_points.hpp"
 #include "io/bop_models.hpp"
 #include "sim/household.hpp"
 #include "sim/tabletop_sets.hpp"

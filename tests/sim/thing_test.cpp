@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/solid.hpp"
+#include "geometry/shapes/solid.hpp"
 #include "sim/scenes.hpp"
 
 namespace credo::test {

@@ -4,7 +4,7 @@
 
 #include "core/cloud.hpp"
 #include "core/grid.hpp"
-#include "geometry/reachability.hpp"
+#include "geometry/reachability/reachability.hpp"
 
 namespace credo::test {
 

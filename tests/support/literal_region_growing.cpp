@@ -5,7 +5,7 @@
 #include <queue>
 #include <vector>
 
-#include "geometry/reachability.hpp"
+#include "geometry/reachability/reachability.hpp"
 
 namespace credo::test {
 namespace {

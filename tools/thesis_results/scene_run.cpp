@@ -11,7 +11,7 @@
 #include "../known_objects.hpp"
 #include "../scene_file.hpp"
 #include "config/yaml_config.hpp"
-#include "geometry/outline.hpp"
+#include "geometry/shapes/outline.hpp"
 #include "graph/pipeline_config.hpp"
 #include "graph/read_ahead.hpp"
 #include "graph/run_once.hpp"

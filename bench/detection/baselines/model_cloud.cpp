@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <variant>
 
-#include "geometry/mesh_edges.hpp"
+#include "geometry/shapes/mesh_edges.hpp"
 
 namespace credo {
 namespace {

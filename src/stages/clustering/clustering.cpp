@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "geometry/label_bits.hpp"
-#include "geometry/reachability.hpp"
+#include "geometry/reachability/reachability.hpp"
 #include "stages/clustering/firm_pixels.hpp"
 #include "stages/clustering/label_spreading.hpp"
 #include "stages/clustering/stuff_clusters.hpp"

@@ -18,7 +18,7 @@
 #include "geometry/mask_lanes-inl.hpp"
 
 #include "core/bits.hpp"
-#include "geometry/reachability_runs.hpp"
+#include "geometry/reachability/runs.hpp"
 
 #ifndef CREDO_STAGES_CLUSTERING_FIRM_PIXELS_ONCE
 #define CREDO_STAGES_CLUSTERING_FIRM_PIXELS_ONCE

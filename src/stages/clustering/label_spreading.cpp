@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "geometry/reachability.hpp"
+#include "geometry/reachability/reachability.hpp"
 
 namespace credo {
 namespace {

@@ -5,7 +5,7 @@
 #include "core/belief.hpp"
 #include "core/fields.hpp"
 #include "core/segmentation.hpp"
-#include "geometry/known_surface.hpp"
+#include "geometry/shapes/known_surface.hpp"
 
 namespace credo {
 

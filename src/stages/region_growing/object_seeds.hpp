@@ -5,7 +5,7 @@
 
 #include "core/cloud.hpp"
 #include "core/se3.hpp"
-#include "geometry/object_shape.hpp"
+#include "geometry/shapes/object_shape.hpp"
 #include "stages/region_growing/region_growing.hpp"
 
 namespace credo {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "geometry/pose_fusion.hpp"
-#include "geometry/reachability.hpp"
+#include "geometry/reachability/reachability.hpp"
 #include "stages/region_growing/object_seeds.hpp"
 
 namespace credo {

@@ -6,7 +6,7 @@
 #include "core/fields.hpp"
 #include "core/frame.hpp"
 #include "core/segmentation.hpp"
-#include "geometry/object_shape.hpp"
+#include "geometry/shapes/object_shape.hpp"
 
 namespace credo {
 

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "geometry/reachability.hpp"
+#include "geometry/reachability/reachability.hpp"
 #include "io/dataset.hpp"
 #include "stages/clustering/clustering.hpp"
 #include "stages/normals/normals.hpp"

@@ -5,7 +5,7 @@
 
 #include "core/belief.hpp"
 #include "core/grid.hpp"
-#include "geometry/known_surface.hpp"
+#include "geometry/shapes/known_surface.hpp"
 #include "stages/fusion/fusion.hpp"
 #include "stages/fusion/sight_view.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "core/belief.hpp"
 #include "core/segmentation.hpp"
-#include "geometry/known_surface.hpp"
+#include "geometry/shapes/known_surface.hpp"
 #include "stages/fusion/fusion.hpp"
 
 namespace credo {

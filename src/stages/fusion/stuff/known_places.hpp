@@ -8,7 +8,7 @@
 
 #include "core/belief.hpp"
 #include "core/label.hpp"
-#include "geometry/known_surface.hpp"
+#include "geometry/shapes/known_surface.hpp"
 #include "stages/fusion/sight_view.hpp"
 
 namespace credo {
