@@ -17,7 +17,7 @@
 #include "commands.hpp"
 #include "config_arguments.hpp"
 #include "core/error.hpp"
-#include "detector/model_picture.hpp"
+#include "detector/models/model_picture.hpp"
 #include "geometry/shapes/learned_surface.hpp"
 #include "geometry/shapes/mesh_edges.hpp"
 #include "io/image.hpp"

@@ -21,10 +21,10 @@
 #include <vector>
 
 #include "../cpu_time.hpp"
-#include "detector/global_search.hpp"
-#include "detector/prepared_model.hpp"
-#include "detector/scene_of_frame.hpp"
-#include "detector/tracking.hpp"
+#include "detector/models/prepared_model.hpp"
+#include "detector/scenes/scene_of_frame.hpp"
+#include "detector/search/global_search.hpp"
+#include "detector/search/tracking.hpp"
 #include "eval/true_model.hpp"
 #include "geometry/random_draws.hpp"
 #include "views.hpp"

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <utility>
 
-#include "detector/pose_covariance.hpp"
-#include "detector/scene_of_frame.hpp"
-#include "detector/symmetry_twin.hpp"
-#include "detector/tracking.hpp"
+#include "detector/poses/pose_covariance.hpp"
+#include "detector/poses/symmetry_twin.hpp"
+#include "detector/scenes/scene_of_frame.hpp"
+#include "detector/search/tracking.hpp"
 
 namespace credo {
 namespace {

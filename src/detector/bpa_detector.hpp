@@ -11,9 +11,9 @@
 #include "core/detection.hpp"
 #include "core/detector_config.hpp"
 #include "core/object_model.hpp"
-#include "detector/joint_detection.hpp"
-#include "detector/prepared_model.hpp"
-#include "detector/search_scene.hpp"
+#include "detector/models/prepared_model.hpp"
+#include "detector/scenes/search_scene.hpp"
+#include "detector/search/joint_detection.hpp"
 
 namespace credo {
 

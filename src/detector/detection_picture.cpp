@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "detector/camera_pose.hpp"
+#include "detector/poses/camera_pose.hpp"
 #include "geometry/depth_patch.hpp"
 #include "io/palette.hpp"
 

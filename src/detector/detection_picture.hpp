@@ -4,7 +4,7 @@
 
 #include "core/detection.hpp"
 #include "core/frame.hpp"
-#include "detector/prepared_model.hpp"
+#include "detector/models/prepared_model.hpp"
 
 namespace credo {
 

@@ -8,7 +8,7 @@
 
 #include "core/detector_config.hpp"
 #include "detector/bpa_detector.hpp"
-#include "detector/scene_of_frame.hpp"
+#include "detector/scenes/scene_of_frame.hpp"
 #include "eval/true_model.hpp"
 #include "proposals/fpfh_proposals.hpp"
 #include "proposals/proposal_detector.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "detector/scene_of_frame.hpp"
+#include "detector/scenes/scene_of_frame.hpp"
 #include "sim/camera_path.hpp"
 #include "sim/depth_sensor.hpp"
 #include "sim/ray_caster.hpp"

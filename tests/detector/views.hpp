@@ -9,9 +9,9 @@
 #include "core/object_model.hpp"
 #include "core/se3.hpp"
 #include "core/sim_config.hpp"
-#include "detector/camera_pose.hpp"
-#include "detector/search_model.hpp"
-#include "detector/search_scene.hpp"
+#include "detector/models/search_model.hpp"
+#include "detector/poses/camera_pose.hpp"
+#include "detector/scenes/search_scene.hpp"
 
 namespace credo::test {
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "detector/search_model.hpp"
-#include "detector/search_scene.hpp"
+#include "detector/models/search_model.hpp"
+#include "detector/scenes/search_scene.hpp"
 #include "fpfh_settings.hpp"
 
 namespace credo {

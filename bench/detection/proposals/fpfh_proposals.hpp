@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "described_points.hpp"
-#include "detector/pair_proposals.hpp"
+#include "detector/search/pair_proposals.hpp"
 
 namespace credo {
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <utility>
 
-#include "detector/facet_proposals.hpp"
-#include "detector/global_search.hpp"
-#include "detector/pose_covariance.hpp"
-#include "detector/scene_of_frame.hpp"
-#include "detector/symmetry_twin.hpp"
+#include "detector/poses/pose_covariance.hpp"
+#include "detector/poses/symmetry_twin.hpp"
+#include "detector/scenes/scene_of_frame.hpp"
+#include "detector/search/facet_proposals.hpp"
+#include "detector/search/global_search.hpp"
 #include "fpfh_proposals.hpp"
 
 namespace credo {

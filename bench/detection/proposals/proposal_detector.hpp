@@ -6,8 +6,8 @@
 
 #include "core/detection.hpp"
 #include "described_points.hpp"
-#include "detector/joint_detection.hpp"
-#include "detector/prepared_model.hpp"
+#include "detector/models/prepared_model.hpp"
+#include "detector/search/joint_detection.hpp"
 
 namespace credo {
 

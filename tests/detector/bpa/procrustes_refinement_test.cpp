@@ -1,4 +1,4 @@
-#include "detector/procrustes_refinement.hpp"
+#include "detector/poses/procrustes_refinement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "detector/bpa/rendered_bracket.hpp"
-#include "detector/global_search.hpp"
+#include "detector/search/global_search.hpp"
 #include "geometry/random_draws.hpp"
 
 namespace credo::test {

@@ -5,7 +5,7 @@
 
 #include "core/frame.hpp"
 #include "core/object_model.hpp"
-#include "detector/scene_of_frame.hpp"
+#include "detector/scenes/scene_of_frame.hpp"
 
 namespace credo::test {
 

@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
-#include "detector/camera_pose.hpp"
-#include "detector/search_model.hpp"
-#include "detector/search_scene.hpp"
+#include "detector/models/search_model.hpp"
+#include "detector/poses/camera_pose.hpp"
+#include "detector/scenes/search_scene.hpp"
 
 namespace credo::test {
 
