@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/frame.hpp"
+#include "core/label.hpp"
 
 namespace credo {
 
@@ -110,11 +111,22 @@ struct ChangeScores {
   std::uint64_t events = 0;
 };
 
+/// A body that is followed by another piece than before.
+struct IdSwitch {
+  FrameIndex frame{0};
+  /// Of the truth's label images.
+  LabelCode body = 0;
+  std::uint32_t from_id = 0;
+  std::uint32_t to_id = 0;
+};
+
 struct StuffScores {
   std::uint64_t id_switches = 0;
   std::uint64_t fragmentations = 0;
   /// Things times frames in which they were followed: what the counts are of.
   std::uint64_t item_frames = 0;
+  /// Each of the `id_switches`.
+  std::vector<IdSwitch> switches;
 };
 
 /// A piece of stuff in the frame in which it comes up.

@@ -32,7 +32,10 @@ void IdentityScorer::add(BeliefSummary const& belief, LabelOverlap const& overla
     }
     ++scores_.item_frames;
     if (track != tracks_.end()) {
-      scores_.id_switches += track->second.id != *id ? 1 : 0;
+      if (track->second.id != *id) {
+        ++scores_.id_switches;
+        scores_.switches.push_back({belief.frame, body, track->second.id, *id});
+      }
       scores_.fragmentations += track->second.interrupted ? 1 : 0;
     }
     tracks_[body] = {*id, false};

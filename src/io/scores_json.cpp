@@ -69,7 +69,14 @@ Json json_of(Chance const& chance) {
           {"is_found", chance.is_found}};
 }
 
-/// Of each claim, birth and chance.
+Json json_of(IdSwitch const& id_switch) {
+  return {{"frame", number(id_switch.frame)},
+          {"label", id_switch.body},
+          {"from", id_switch.from_id},
+          {"to", id_switch.to_id}};
+}
+
+/// Of each claim, birth, chance and switch.
 template <typename Value>
 Json array_of(std::vector<Value> const& values) {
   Json array = Json::array();
@@ -119,11 +126,15 @@ std::string scores_json(Scores const& scores) {
                     {"recall", json_of(scores.change.recall)},
                     {"delay_frames", json_of(scores.change.delay_frames)},
                     {"events", scores.change.events}};
-  json["stuff"] = {{"id_switches", nullptr}, {"fragmentations", nullptr}, {"item_frames", nullptr}};
+  json["stuff"] = {{"id_switches", nullptr},
+                   {"fragmentations", nullptr},
+                   {"item_frames", nullptr},
+                   {"switches", nullptr}};
   if (scores.stuff) {
     json["stuff"] = {{"id_switches", scores.stuff->id_switches},
                      {"fragmentations", scores.stuff->fragmentations},
-                     {"item_frames", scores.stuff->item_frames}};
+                     {"item_frames", scores.stuff->item_frames},
+                     {"switches", array_of(scores.stuff->switches)}};
   }
   json["births"] = array_of(scores.births);
   json["chances"] = array_of(scores.chances);

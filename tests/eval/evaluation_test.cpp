@@ -264,6 +264,11 @@ TEST(Evaluation, AnotherIdIsASwitchAndAMissedFrameAnInterruption) {
   EXPECT_EQ(scores.fragmentations, 1U);
   EXPECT_EQ(scores.id_switches, 1U);
   EXPECT_EQ(scores.item_frames, 9U);
+  ASSERT_EQ(scores.switches.size(), 1U);
+  EXPECT_EQ(scores.switches[0].frame, FrameIndex{4});
+  EXPECT_EQ(scores.switches[0].body, run[4].truth.stuff[1].label);
+  EXPECT_EQ(scores.switches[0].from_id, run[3].belief.stuff[1].id);
+  EXPECT_EQ(scores.switches[0].to_id, 99U);
 }
 
 TEST(Evaluation, OutOfSightIsNoInterruption) {
