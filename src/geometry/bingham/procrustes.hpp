@@ -85,7 +85,7 @@ struct ProcrustesPose {
 
 /// In the convention of boxplus. Turning moves the origin where it is off the centroid of the
 /// points, so that both errors are correlated. Rotations spread by more than 0.4 rad do not fit
-/// into it (bingham_tangent.hpp).
+/// into it (tangent.hpp).
 [[nodiscard]] PoseDistribution pose_distribution(ProcrustesPose const& pose);
 
 /// What is known beforehand about the translation; positive definite.

@@ -121,8 +121,8 @@ struct DriftConfig {
 FieldList fields(DriftConfig& config);
 
 struct FusionConfig {
-  /// The rule that knows what it could not see (stuff_items.hpp, objects.hpp, surroundings.hpp);
-  /// else the thesis'.
+  /// The rule that knows what it could not see (stuff/items.hpp, objects/objects.hpp,
+  /// surroundings.hpp); else the thesis'.
   bool visibility = true;
   /// That a known object is there; with the thesis' rule also what is seen for the first time.
   double prior_probability = 0.99;

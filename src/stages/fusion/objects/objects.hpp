@@ -17,7 +17,7 @@ namespace credo {
 /// A detector repeats its errors from frame to frame as long as the picture stays the same. So of a
 /// detection the part that is news since the object was last seen (novelty, existence.hpp) counts,
 /// and no number of looks takes away its min_covariance_share, unless the detector says that it
-/// draws its errors anew (pose_after, object_places.hpp). What was looked for in vain until it
+/// draws its errors anew (pose_after, places.hpp). What was looked for in vain until it
 /// is not believed to be there any more may have been moved: its covariance goes back towards the
 /// prior's, so that it is found again within what was told.
 [[nodiscard]] std::vector<ObjectBelief> fused_objects(std::vector<ObjectBelief> objects,

@@ -17,7 +17,7 @@ namespace {
 // So much of the cluster lies where the thing was, as of clusters that go to a thing
 // (cluster_owners.cpp): from elsewhere other sides of it show.
 constexpr double kShareOfCluster = 0.3;
-// As of things (stuff_findings.cpp).
+// As of things (findings.cpp).
 constexpr double kShareThrough = 0.6;
 constexpr int kLeastTold = 8;
 
