@@ -212,8 +212,7 @@ private:
         free.push_back({c, has_arrived(clusters_[c])});
       }
     }
-    for (Move const& found :
-         moves(known_.stuff, looks_.looks(), clusters_, free, now_.camera_world)) {
+    for (Move const& found : moves(known_.stuff, looks_.looks(), clusters_, free, now_)) {
       StuffBelief& item = known_.stuff[found.item];
       SeenCluster const& seen = clusters_[found.cluster];
       item.label = static_cast<LabelCode>(kFirstStuff + found.cluster);
@@ -224,6 +223,9 @@ private:
       item.why.moved = 0.0;
       raise_to(item, log_odds_of_new(seen));
       believe(item, {Verdict::kSeen, 1.0}, now_, news_[found.item], config_.existence);
+      if (found.set_out) {
+        count_arrival(item);
+      }
       count_look(item, true);
       begin_model(item, seen);
       owners_.give(static_cast<LabelCode>(kFirstStuff + found.cluster), found.item);

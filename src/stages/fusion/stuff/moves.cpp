@@ -31,6 +31,8 @@ constexpr float kMostGrowth = 4.0F;
 // seen through.
 constexpr double kMakesWay = 0.6;
 constexpr int kLeastMeasured = 8;
+// What stood still may set out: nobody walks faster.
+constexpr double kWalk_mps = 2.0;
 // It is on its way where it moved at so many of its looks, of four at the least.
 constexpr double kMovesOften = 0.3;
 constexpr std::size_t kFewestLooks = 4;
@@ -50,20 +52,25 @@ bool has_just_come(StuffBelief const& item) {
          (item.history_count < kFewestLooks && item.moved_share > 0.0);
 }
 
-/// Whether a thing has left its place to a cluster that has come there: what it should show is
-/// hidden by that, or seen through.
-bool makes_way_for(StuffBelief const& item, StuffLook const& look, FreeCluster const& free) {
-  if (!moves_often(item) && !(free.arrived && has_just_come(item))) {
-    return false;
+/// Whether what a thing should show is hidden by a cluster, or seen through. What only lies at
+/// the edge of something nearer tells nothing.
+bool is_gone_behind(StuffLook const& look, std::size_t cluster, bool may_be_seen_through) {
+  auto const label = static_cast<LabelCode>(kFirstStuff + cluster);
+  int hidden = 0;
+  int through = look.counts[PointState::kSeenThrough];
+  int measured = through + look.counts[PointState::kAgrees];
+  for (ClusterShare const& share : look.shares) {
+    hidden += share.label == label ? share.hidden : 0;
+    measured += share.hidden;
   }
-  auto const label = static_cast<LabelCode>(kFirstStuff + free.cluster);
-  auto const share = std::ranges::find(look.shares, label, &ClusterShare::label);
-  int const hidden = share == look.shares.end() ? 0 : share->hidden;
-  int const through = look.counts[PointState::kSeenThrough];
-  int const measured =
-      through + look.counts[PointState::kAgrees] + look.counts[PointState::kOccluded];
-  return (hidden > 0 || moves_often(item)) && measured >= kLeastMeasured &&
+  return (hidden > 0 || may_be_seen_through) && measured >= kLeastMeasured &&
          hidden + through > kMakesWay * measured;
+}
+
+/// Whether a thing has left its place to a cluster that has come there.
+bool makes_way_for(StuffBelief const& item, StuffLook const& look, FreeCluster const& free) {
+  return (moves_often(item) || (free.arrived && has_just_come(item))) &&
+         is_gone_behind(look, free.cluster, moves_often(item));
 }
 
 std::vector<Eigen::Vector3f> centred(std::span<Eigen::Vector3f const> points,
@@ -104,11 +111,8 @@ float median_of(std::vector<float> values) {
   return *middle;
 }
 
-/// Without what lies far from most of it: at its edge a cluster has pixels of what is behind it.
-std::vector<Eigen::Vector3f> without_strays(std::span<Eigen::Vector3f const> points) {
-  if (points.empty()) {
-    return {};
-  }
+/// The median along each axis. Of some points.
+Eigen::Vector3f middle_of(std::span<Eigen::Vector3f const> points) {
   Eigen::Vector3f middle;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     std::vector<float> along;
@@ -118,6 +122,15 @@ std::vector<Eigen::Vector3f> without_strays(std::span<Eigen::Vector3f const> poi
     }
     middle[axis] = median_of(std::move(along));
   }
+  return middle;
+}
+
+/// Without what lies far from most of it: at its edge a cluster has pixels of what is behind it.
+std::vector<Eigen::Vector3f> without_strays(std::span<Eigen::Vector3f const> points) {
+  if (points.empty()) {
+    return {};
+  }
+  Eigen::Vector3f const middle = middle_of(points);
   std::vector<float> distances_m;
   distances_m.reserve(points.size());
   for (Eigen::Vector3f const& point : points) {
@@ -133,6 +146,19 @@ std::vector<Eigen::Vector3f> without_strays(std::span<Eigen::Vector3f const> poi
   return most;
 }
 
+/// Whether the one is as large as the other, along its two longer axes.
+bool are_as_large(std::span<Eigen::Vector3f const> one, std::span<Eigen::Vector3f const> other) {
+  Eigen::Vector3f const a = extents_of(one);
+  Eigen::Vector3f const b = extents_of(other);
+  for (Eigen::Index i = 1; i < 3; ++i) {
+    auto const [less, more] = std::minmax(a[i], b[i]);
+    if (static_cast<double>(more) > kMostSizeRatio * static_cast<double>(less)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// RMS distance of the cluster from the thing's shape, once laid on it; none where they differ.
 std::optional<double> fit_of(StuffBelief const& item, SeenCluster const& cluster,
                              Eigen::Vector3d const& camera_world) {
@@ -140,22 +166,14 @@ std::optional<double> fit_of(StuffBelief const& item, SeenCluster const& cluster
   std::vector<Eigen::Vector3f> const seen = without_strays(cluster.points_world);
   Eigen::Vector3f const from = mean_of(known);
   Eigen::Vector3f const to = mean_of(seen);
-  if ((from - to).norm() > static_cast<float>(kFarthest_m)) {
+  if ((from - to).norm() > static_cast<float>(kFarthest_m) || !are_as_large(known, seen)) {
     return std::nullopt;
-  }
-  Eigen::Vector3f const a = extents_of(known);
-  Eigen::Vector3f const b = extents_of(seen);
-  for (Eigen::Index i = 1; i < 3; ++i) {
-    auto const [less, more] = std::minmax(a[i], b[i]);
-    if (static_cast<double>(more) > kMostSizeRatio * static_cast<double>(less)) {
-      return std::nullopt;
-    }
   }
   IcpConfig config;
   config.max_iterations = kIcpSteps;
   double const noise_m = kRmsPerSquareMetre * (to.cast<double>() - camera_world).squaredNorm();
-  config.max_rms_m =
-      std::min(std::max(kLeastRms_m, noise_m), kShareOfSize * static_cast<double>(a.z()));
+  config.max_rms_m = std::min(std::max(kLeastRms_m, noise_m),
+                              kShareOfSize * static_cast<double>(extents_of(known).z()));
   auto const fit = align_icp(centred(seen, to), centred(known, from), config);
   return fit ? std::optional(fit->rms_m) : std::nullopt;
 }
@@ -168,6 +186,26 @@ std::optional<double> way_to(StuffBelief const& item, SeenCluster const& cluster
       std::minmax({extents_of(known).z(), extents_of(cluster.points_world).z()});
   auto const way_m = static_cast<double>((mean_of(known) - mean_of(cluster.points_world)).norm());
   return way_m > kFarthest_m || more > kMostGrowth * less ? std::nullopt : std::optional(way_m);
+}
+
+/// How far what stood still has come since it was seen; none where it has not set out. What arrived
+/// hides its place, is as large, and no farther from there than one walks, nor than the thing is
+/// wide: between the two is no room for both.
+std::optional<double> way_since_seen(StuffBelief const& item, StuffLook const& look,
+                                     SeenCluster const& cluster, FreeCluster const& free,
+                                     std::int64_t now_ns) {
+  double const elapsed_s = 1e-9 * static_cast<double>(now_ns - item.last_look.stamp_ns);
+  if (!free.arrived || !is_gone_behind(look, free.cluster, false)) {
+    return std::nullopt;
+  }
+  std::vector<Eigen::Vector3f> const known = without_strays(item.latest().points_world);
+  std::vector<Eigen::Vector3f> const seen = without_strays(cluster.points_world);
+  auto const way_m = static_cast<double>((middle_of(known) - middle_of(seen)).norm());
+  // A board's standard deviation is its width by the root of 12.
+  double const width_m = std::sqrt(12.0) * static_cast<double>(extents_of(known).y());
+  bool const may_be_it =
+      way_m <= std::min(kWalk_mps * elapsed_s, width_m) && are_as_large(known, seen);
+  return may_be_it ? std::optional(way_m) : std::nullopt;
 }
 
 }  // namespace
@@ -214,7 +252,7 @@ std::vector<SeenCluster> clusters_of(Segmentation const& segmentation) {
 
 std::vector<Move> moves(std::vector<StuffBelief> const& stuff, std::vector<StuffLook> const& looks,
                         std::vector<SeenCluster> const& clusters, std::span<FreeCluster const> free,
-                        Eigen::Vector3d const& camera_world) {
+                        Look const& now) {
   struct Candidate {
     double misfit_m;
     Move move;
@@ -227,13 +265,17 @@ std::vector<Move> moves(std::vector<StuffBelief> const& stuff, std::vector<Stuff
     for (FreeCluster const& place : free) {
       SeenCluster const& cluster = clusters[place.cluster];
       std::optional<double> misfit_m = stuff[i].verdict == Verdict::kSurelyGone
-                                           ? fit_of(stuff[i], cluster, camera_world)
+                                           ? fit_of(stuff[i], cluster, now.camera_world)
                                            : std::nullopt;
       if (!misfit_m && makes_way_for(stuff[i], looks[i], place)) {
         misfit_m = way_to(stuff[i], cluster);
       }
+      bool const set_out = !misfit_m;
+      if (set_out) {
+        misfit_m = way_since_seen(stuff[i], looks[i], cluster, place, now.stamp_ns);
+      }
       if (misfit_m) {
-        candidates.push_back({*misfit_m, {i, place.cluster}});
+        candidates.push_back({*misfit_m, {i, place.cluster, set_out}});
       }
     }
   }

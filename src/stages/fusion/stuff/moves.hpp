@@ -39,18 +39,20 @@ struct FreeCluster {
 struct Move {
   std::size_t item = 0;
   std::size_t cluster = 0;
+  /// It stood still until now.
+  bool set_out = false;
 };
 
 /// Things that stand elsewhere now, and which of the clusters `free` each is; each the other's
 /// best. Those that have surely gone: what is near by, as large, and of the same shape after ICP.
 /// Those that moved before, or have just come, whose place a cluster that arrived hides,
-/// or that are seen through: what is near by, and nearly as large. `looks` are at `stuff`, in its
-/// order.
+/// or that are seen through: what is near by, and nearly as large. And those that stood still until
+/// a cluster arrived that hides them, which has their shape and is no farther off than one walks
+/// since they were seen. `looks` are at `stuff`, in its order.
 [[nodiscard]] std::vector<Move> moves(std::vector<StuffBelief> const& stuff,
                                       std::vector<StuffLook> const& looks,
                                       std::vector<SeenCluster> const& clusters,
-                                      std::span<FreeCluster const> free,
-                                      Eigen::Vector3d const& camera_world);
+                                      std::span<FreeCluster const> free, Look const& now);
 
 /// What is left of a cluster without the blocks that a thing explains, which stands there: `owners`
 /// has of each block of the sight the place of that in the belief.

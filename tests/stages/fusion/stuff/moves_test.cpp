@@ -22,6 +22,8 @@ constexpr LabelCode kFirst = kFirstStuff;
 constexpr LabelCode kSecond = kFirstStuff + 1;
 constexpr double kFrame_s = 1e-9 * kFrame_ns;
 constexpr double kElsewhere_m = 30.0;
+// Nobody walks farther in a frame.
+constexpr double kStep_m = 0.06;
 
 Board person(double left_m, double z_m, LabelCode label = kFirst) {
   return {label, left_m, -0.4, 0.3, 0.8, z_m};
@@ -104,6 +106,45 @@ TEST(StuffMoves, WhatStoodStillIsNotLostBehindWhatIsLikeIt) {
   ASSERT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
   EXPECT_EQ(room.stuff()[0].log_odds, believed);
   EXPECT_EQ(room.stuff()[0].evidence, Evidence::kOccluded);
+}
+
+// Two cannot stand so near to each other.
+TEST(StuffMoves, WhatStoodStillMaySetOut) {
+  Room room(test::kWithSight);
+  room.show({.boards = {person(-0.15, 2.0)}}, 10);
+  for (int k = 1; k <= 8; ++k) {
+    room.show({.boards = {person(-0.15, 2.0 - kStep_m * k)}});
+  }
+  ASSERT_THAT(room.ids(), testing::ElementsAre(1U));
+  EXPECT_NEAR(room.stuff()[0].latest().centroid_world.z(), 2.0 - 8 * kStep_m, 0.01F);
+  EXPECT_TRUE(is_on_its_way(room.stuff()[0]));
+  EXPECT_GT(probability_of(room.stuff()[0].log_odds), 0.7);
+}
+
+// Once it has, it is followed as what came.
+TEST(StuffMoves, WhatHasSetOutMayHurry) {
+  Room room(test::kWithSight);
+  room.show({.boards = {person(-0.15, 2.0)}}, 10);
+  room.show({.boards = {person(-0.15, 2.0 - kStep_m)}});
+  room.show({.boards = {person(-0.15, 2.0 - 3 * kStep_m)}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U));
+}
+
+TEST(StuffMoves, WhatIsThinMayStandBehindWhatIsLikeIt) {
+  Room room(test::kWithSight);
+  Board const post = {kFirst, -0.02, -0.4, 0.04, 0.8, 2.0};
+  room.show({.boards = {post}}, 10);
+  Board nearer = post;
+  nearer.z_m = 2.0 - kStep_m;
+  room.show({.boards = {nearer}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
+}
+
+TEST(StuffMoves, WhatIsLargerBeforeWhatStoodStillIsNotThat) {
+  Room room(test::kWithSight);
+  room.show({.boards = {person(-0.15, 2.0)}}, 10);
+  room.show({.boards = {{kFirst, -0.4, -0.7, 0.8, 1.4, 2.0 - kStep_m}}});
+  EXPECT_THAT(room.ids(), testing::ElementsAre(1U, 2U));
 }
 
 // Three looks, but nobody saw it come.
