@@ -46,7 +46,7 @@ std::string existence_row(ExistenceScores const& scores) {
 std::string stuff_row(StuffScores const& scores) {
   return row("stuff",
              fmt::format("{} id switches, {} fragmentations in {} things times frames followed",
-                         scores.id_switches, scores.fragmentations, scores.item_frames));
+                         scores.switches.size(), scores.fragmentations, scores.item_frames));
 }
 
 std::string camera_row(std::string const& name, std::optional<CameraScores> const& scores) {

@@ -121,11 +121,9 @@ struct IdSwitch {
 };
 
 struct StuffScores {
-  std::uint64_t id_switches = 0;
   std::uint64_t fragmentations = 0;
   /// Things times frames in which they were followed: what the counts are of.
   std::uint64_t item_frames = 0;
-  /// Each of the `id_switches`.
   std::vector<IdSwitch> switches;
 };
 

@@ -33,7 +33,6 @@ void IdentityScorer::add(BeliefSummary const& belief, LabelOverlap const& overla
     ++scores_.item_frames;
     if (track != tracks_.end()) {
       if (track->second.id != *id) {
-        ++scores_.id_switches;
         scores_.switches.push_back({belief.frame, body, track->second.id, *id});
       }
       scores_.fragmentations += track->second.interrupted ? 1 : 0;

@@ -131,7 +131,7 @@ std::string scores_json(Scores const& scores) {
                    {"item_frames", nullptr},
                    {"switches", nullptr}};
   if (scores.stuff) {
-    json["stuff"] = {{"id_switches", scores.stuff->id_switches},
+    json["stuff"] = {{"id_switches", scores.stuff->switches.size()},
                      {"fragmentations", scores.stuff->fragmentations},
                      {"item_frames", scores.stuff->item_frames},
                      {"switches", array_of(scores.stuff->switches)}};

@@ -2,6 +2,7 @@
 // should, by what arithmetic says, and no other.
 #include "eval/evaluation.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -75,7 +76,7 @@ TEST(Evaluation, ARunThatBelievesWhatIsTrueIsPerfect) {
   EXPECT_FALSE(scores.change.precision);
   EXPECT_FALSE(scores.change.recall);
   ASSERT_TRUE(scores.stuff);
-  EXPECT_EQ(scores.stuff->id_switches, 0U);
+  EXPECT_THAT(scores.stuff->switches, testing::IsEmpty());
   EXPECT_EQ(scores.stuff->item_frames, 10U) << "two things in five frames";
 }
 
@@ -260,9 +261,10 @@ TEST(Evaluation, AnotherIdIsASwitchAndAMissedFrameAnInterruption) {
   run[2].belief.stuff[0].label.reset();
   fill(run[2].labels, square(2, 1), kUnassigned);
   run[4].belief.stuff[1].id = 99;
-  StuffScores const scores = *scores_of(run).stuff;
+  Scores const all = scores_of(run);
+  EXPECT_THAT(scores_json(all), testing::HasSubstr("\"id_switches\": 1,"));
+  StuffScores const& scores = *all.stuff;
   EXPECT_EQ(scores.fragmentations, 1U);
-  EXPECT_EQ(scores.id_switches, 1U);
   EXPECT_EQ(scores.item_frames, 9U);
   ASSERT_EQ(scores.switches.size(), 1U);
   EXPECT_EQ(scores.switches[0].frame, FrameIndex{4});

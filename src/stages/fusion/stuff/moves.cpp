@@ -111,7 +111,7 @@ float median_of(std::vector<float> values) {
   return *middle;
 }
 
-/// The median along each axis. Of some points.
+/// Of some points the median along each axis.
 Eigen::Vector3f middle_of(std::span<Eigen::Vector3f const> points) {
   Eigen::Vector3f middle;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {

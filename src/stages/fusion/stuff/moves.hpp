@@ -47,8 +47,8 @@ struct Move {
 /// best. Those that have surely gone: what is near by, as large, and of the same shape after ICP.
 /// Those that moved before, or have just come, whose place a cluster that arrived hides,
 /// or that are seen through: what is near by, and nearly as large. And those that stood still until
-/// a cluster arrived that hides them, which has their shape and is no farther off than one walks
-/// since they were seen. `looks` are at `stuff`, in its order.
+/// a cluster arrived that hides them, which is as large, and no farther off than one walks since
+/// they were seen, nor than they are wide. `looks` are at `stuff`, in its order.
 [[nodiscard]] std::vector<Move> moves(std::vector<StuffBelief> const& stuff,
                                       std::vector<StuffLook> const& looks,
                                       std::vector<SeenCluster> const& clusters,
